@@ -1,0 +1,125 @@
+//! The one error type: what is wrong, where, and what would be legal.
+
+use std::fmt;
+
+/// What kind of thing is wrong. The strings of [`Code::as_str`] are part of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Code {
+    /// An object has a key that nothing reads.
+    UnknownKey,
+    /// A key that has no default is absent.
+    MissingKey,
+    /// A value is not of the type that is read there.
+    WrongType,
+    /// A list or matrix has not the length that is read there.
+    WrongLength,
+    /// A number is NaN or infinite.
+    NotFinite,
+    /// A number or word is outside what is legal.
+    OutOfRange,
+    /// A covariance is not symmetric positive definite.
+    NotPositiveDefinite,
+    /// Two destinations have the same id.
+    DuplicateId,
+    /// No destination has this id.
+    UnknownId,
+    /// A scenario needs at least one destination.
+    NoDestinations,
+    /// A time lies before the last observation's.
+    TimeNotIncreasing,
+    /// The method accumulates evidence for each destination, so it cannot do this in mid-movement.
+    MethodAccumulates,
+    /// More than the stated limit.
+    TooLarge,
+    /// A snapshot is damaged or from another version.
+    BadSnapshot,
+    /// The object was freed.
+    Freed,
+    /// `init` has not run.
+    NotInitialised,
+    /// WebAssembly cannot be loaded here.
+    WasmUnavailable,
+}
+
+impl Code {
+    /// The code as it is spelt in JavaScript and in messages.
+    ///
+    /// ```
+    /// assert_eq!(whither::Code::UnknownKey.as_str(), "unknown-key");
+    /// ```
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::UnknownKey => "unknown-key",
+            Self::MissingKey => "missing-key",
+            Self::WrongType => "wrong-type",
+            Self::WrongLength => "wrong-length",
+            Self::NotFinite => "not-finite",
+            Self::OutOfRange => "out-of-range",
+            Self::NotPositiveDefinite => "not-positive-definite",
+            Self::DuplicateId => "duplicate-id",
+            Self::UnknownId => "unknown-id",
+            Self::NoDestinations => "no-destinations",
+            Self::TimeNotIncreasing => "time-not-increasing",
+            Self::MethodAccumulates => "method-accumulates",
+            Self::TooLarge => "too-large",
+            Self::BadSnapshot => "bad-snapshot",
+            Self::Freed => "freed",
+            Self::NotInitialised => "not-initialised",
+            Self::WasmUnavailable => "wasm-unavailable",
+        }
+    }
+}
+
+/// An error: a [`Code`], the path of the field (`destinations[3].covariance`), and a message that quotes the
+/// value and says what is legal.
+///
+/// ```
+/// use whither::{Code, Error};
+/// let error = Error::new(Code::OutOfRange, "none", "must be at least 0 and less than 1, got 2");
+/// assert_eq!(error.to_string(), "none: must be at least 0 and less than 1, got 2");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    code: Code,
+    path: String,
+    message: String,
+}
+
+/// What everything here that can fail returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    /// An error about the field at `path`.
+    #[must_use]
+    pub fn new(code: Code, path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { code, path: path.into(), message: message.into() }
+    }
+
+    /// What kind of thing is wrong.
+    #[must_use]
+    pub const fn code(&self) -> Code {
+        self.code
+    }
+
+    /// The field, such as `destinations[3].covariance`; empty where the error is about no field.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The value and what is legal, without the path.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.path.is_empty() { f.write_str(&self.message) } else { write!(f, "{}: {}", self.path, self.message) }
+    }
+}
+
+impl std::error::Error for Error {}

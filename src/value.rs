@@ -1,0 +1,420 @@
+//! The dynamic tree that scenarios and snapshots travel as, and the reader that turns it into typed parts.
+//!
+//! Every part reads its own object key by key: [`Node::fields`] names the legal keys (any other one is an error that
+//! names it), and each read reports the full path and quotes what it found. Derived deserialisation would make the
+//! WebAssembly several times as large and its errors poorer.
+
+use crate::error::{Code, Error, Result};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use std::fmt::{self, Write};
+
+/// What JSON can say, with NaN and infinities left in, so that they can be refused by name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// `null` or `undefined`.
+    Null,
+    /// `true` or `false`.
+    Bool(bool),
+    /// Any number.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// An array.
+    List(Vec<Value>),
+    /// An object, in the order of its keys.
+    Map(Vec<(String, Value)>),
+}
+
+impl Value {
+    /// An object from its entries.
+    #[must_use]
+    pub fn map<const N: usize>(entries: [(&str, Self); N]) -> Self {
+        Self::Map(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+    }
+
+    /// A list of numbers.
+    pub fn numbers<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+        Self::List(numbers.into_iter().map(|&x| Self::Number(x)).collect())
+    }
+
+    /// A piece of text.
+    #[must_use]
+    pub fn text(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+
+    /// How an error message quotes this value: short, and one line.
+    #[must_use]
+    pub fn quoted(&self) -> String {
+        match self {
+            Self::Null => "nothing".to_owned(),
+            Self::Bool(b) => b.to_string(),
+            Self::Number(x) => number(*x),
+            Self::Text(s) => quote(s),
+            Self::List(v) => {
+                let mut text = String::from("[");
+                for (i, item) in v.iter().take(4).enumerate() {
+                    let _ = write!(text, "{}{}", if i == 0 { "" } else { ", " }, item.quoted());
+                }
+                text.push_str(if v.len() > 4 { ", ...]" } else { "]" });
+                text
+            }
+            Self::Map(_) => "an object".to_owned(),
+        }
+    }
+}
+
+/// A text in quotation marks, cut where it is long.
+#[must_use]
+pub fn quote(text: &str) -> String {
+    let cut: String = text.chars().take(40).collect();
+    let more = if cut.len() < text.len() { "..." } else { "" };
+    format!("\"{cut}{more}\"")
+}
+
+/// A number as JavaScript would print it, nearly.
+#[must_use]
+pub fn number(x: f64) -> String {
+    if x.is_nan() {
+        "NaN".to_owned()
+    } else if x.is_infinite() {
+        (if x > 0.0 { "Infinity" } else { "-Infinity" }).to_owned()
+    } else if x != 0.0 && (x.abs() < 1e-6 || x.abs() >= 1e21) {
+        format!("{x:e}")
+    } else {
+        format!("{x}")
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Step<'a> {
+    Root(&'a str),
+    Key(&'a str),
+    Index(usize),
+}
+
+/// A value and where it stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Node<'a> {
+    value: &'a Value,
+    parent: Option<&'a Node<'a>>,
+    step: Step<'a>,
+}
+
+impl<'a> Node<'a> {
+    /// The root of a tree. `name` begins every path (empty for a scenario, `destination` for one destination).
+    #[must_use]
+    pub const fn root(value: &'a Value, name: &'a str) -> Self {
+        Self { value, parent: None, step: Step::Root(name) }
+    }
+
+    /// The value itself.
+    #[must_use]
+    pub const fn value(&self) -> &'a Value {
+        self.value
+    }
+
+    /// Where it stands, such as `destinations[3].covariance`.
+    #[must_use]
+    pub fn path(&self) -> String {
+        let mut path = self.parent.map(Node::path).unwrap_or_default();
+        match self.step {
+            Step::Root(name) => path.push_str(name),
+            Step::Key(key) => {
+                if !path.is_empty() {
+                    path.push('.');
+                }
+                path.push_str(key);
+            }
+            Step::Index(i) => {
+                let _ = write!(path, "[{i}]");
+            }
+        }
+        path
+    }
+
+    /// An error about this value: `"must be positive"` becomes `"must be positive, got -3"`.
+    #[must_use]
+    pub fn error(&self, code: Code, must: &str) -> Error {
+        Error::new(code, self.path(), format!("{must}, got {}", self.value.quoted()))
+    }
+
+    /// This value as an object that may have the `legal` keys only.
+    ///
+    /// # Errors
+    /// `wrong-type` if it is none, `unknown-key` for any other key.
+    pub fn fields(&self, legal: &[&str]) -> Result<Fields<'_>> {
+        let Value::Map(entries) = self.value else {
+            return Err(self.error(Code::WrongType, "must be an object"));
+        };
+        for (key, _) in entries {
+            if !legal.contains(&key.as_str()) {
+                let path = Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
+                let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
+                return Err(Error::new(
+                    Code::UnknownKey,
+                    path,
+                    format!("unknown key {}, expected one of {}", quote(key), legal.join(", ")),
+                ));
+            }
+        }
+        Ok(Fields { entries, node: self })
+    }
+
+    /// The key `key` of this value, if it is an object that has it and it is not null.
+    #[must_use]
+    pub fn get<'b>(&'b self, key: &'b str) -> Option<Node<'b>> {
+        let Value::Map(entries) = self.value else { return None };
+        let (_, value) = entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
+        Some(Node { value, parent: Some(self), step: Step::Key(key) })
+    }
+
+    /// A finite number.
+    ///
+    /// # Errors
+    /// `wrong-type`, `not-finite`.
+    pub fn number(&self) -> Result<f64> {
+        match self.value {
+            Value::Number(x) if x.is_finite() => Ok(*x),
+            Value::Number(_) => Err(self.error(Code::NotFinite, "must be a finite number")),
+            _ => Err(self.error(Code::WrongType, "must be a number")),
+        }
+    }
+
+    /// A number above zero.
+    ///
+    /// # Errors
+    /// As [`Node::number`], and `out-of-range`.
+    pub fn positive(&self) -> Result<f64> {
+        let x = self.number()?;
+        if x > 0.0 { Ok(x) } else { Err(self.error(Code::OutOfRange, "must be greater than 0")) }
+    }
+
+    /// A number that is zero or above.
+    ///
+    /// # Errors
+    /// As [`Node::number`], and `out-of-range`.
+    pub fn not_negative(&self) -> Result<f64> {
+        let x = self.number()?;
+        if x >= 0.0 { Ok(x) } else { Err(self.error(Code::OutOfRange, "must be at least 0")) }
+    }
+
+    /// A whole number from `low` to `high`; above `high` the code is `too-large`.
+    ///
+    /// # Errors
+    /// As [`Node::number`], `out-of-range`, `too-large`.
+    pub fn whole(&self, low: usize, high: usize) -> Result<usize> {
+        let x = self.number()?;
+        let must = || format!("must be a whole number from {low} to {high}");
+        if x.fract() != 0.0 || x < low as f64 {
+            return Err(self.error(Code::OutOfRange, &must()));
+        }
+        if x > high as f64 {
+            return Err(self.error(Code::TooLarge, &must()));
+        }
+        Ok(x as usize)
+    }
+
+    /// A string.
+    ///
+    /// # Errors
+    /// `wrong-type`.
+    pub fn text(&self) -> Result<&'a str> {
+        match self.value {
+            Value::Text(s) => Ok(s),
+            _ => Err(self.error(Code::WrongType, "must be a string")),
+        }
+    }
+
+    /// One of the given words.
+    ///
+    /// # Errors
+    /// `wrong-type`, `out-of-range`.
+    pub fn word<T: Copy>(&self, words: &[(&str, T)]) -> Result<T> {
+        let text = self.text()?;
+        words.iter().find(|(word, _)| *word == text).map(|(_, item)| *item).ok_or_else(|| {
+            let legal: Vec<String> = words.iter().map(|(word, _)| quote(word)).collect();
+            self.error(Code::OutOfRange, &format!("must be one of {}", legal.join(", ")))
+        })
+    }
+
+    /// The items of a list.
+    ///
+    /// # Errors
+    /// `wrong-type`.
+    pub fn items(&self) -> Result<impl ExactSizeIterator<Item = Node<'_>>> {
+        match self.value {
+            Value::List(items) => Ok(items.iter().enumerate().map(move |(i, value)| Node {
+                value,
+                parent: Some(self),
+                step: Step::Index(i),
+            })),
+            _ => Err(self.error(Code::WrongType, "must be a list")),
+        }
+    }
+
+    /// A list of finite numbers, of the given length where one is given.
+    ///
+    /// # Errors
+    /// `wrong-type`, `wrong-length`, `not-finite`.
+    pub fn vector(&self, length: Option<usize>) -> Result<Vec<f64>> {
+        let items = self.items()?;
+        match length {
+            Some(n) if items.len() != n => {
+                let found = items.len();
+                Err(self.error(Code::WrongLength, &format!("must have {n} numbers, has {found}")))
+            }
+            _ => items.map(|item| item.number()).collect(),
+        }
+    }
+
+    /// One number for all axes, or one for each, each passed through `check`.
+    ///
+    /// # Errors
+    /// `wrong-type`, `wrong-length`, and what `check` says.
+    pub fn for_each_axis(&self, axes: usize, check: fn(&Node<'_>) -> Result<f64>) -> Result<Vec<f64>> {
+        if matches!(self.value, Value::List(_)) {
+            self.vector(Some(axes))?;
+            self.items()?.map(|item| check(&item)).collect()
+        } else {
+            if !matches!(self.value, Value::Number(_)) {
+                let must = format!("must be a number or a list of {axes} numbers, one for each axis");
+                return Err(self.error(Code::WrongType, &must));
+            }
+            check(self).map(|x| vec![x; axes])
+        }
+    }
+
+    /// A matrix given as a list of rows, returned row by row, of the given shape where one is given.
+    ///
+    /// # Errors
+    /// `wrong-type`, `wrong-length`, `not-finite`.
+    pub fn matrix(&self, rows: usize, columns: usize) -> Result<Vec<f64>> {
+        let items = self.items()?;
+        if items.len() != rows {
+            let must = format!("must have {rows} rows of {columns} numbers, has {} rows", items.len());
+            return Err(self.error(Code::WrongLength, &must));
+        }
+        let mut matrix = Vec::with_capacity(rows * columns);
+        for row in items {
+            matrix.extend(row.vector(Some(columns))?);
+        }
+        Ok(matrix)
+    }
+}
+
+/// An object whose keys have been checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Fields<'a> {
+    entries: &'a [(String, Value)],
+    node: &'a Node<'a>,
+}
+
+impl<'a> Fields<'a> {
+    /// The value at `key`, or none where it is absent or null.
+    #[must_use]
+    pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
+        let (_, value) = self.entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
+        Some(Node { value, parent: Some(self.node), step: Step::Key(key) })
+    }
+
+    /// The value at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`.
+    pub fn required(&self, key: &'a str) -> Result<Node<'a>> {
+        self.optional(key).ok_or_else(|| {
+            let path = Node { value: &Value::Null, parent: Some(self.node), step: Step::Key(key) }.path();
+            Error::new(Code::MissingKey, path, format!("missing key {}", quote(key)))
+        })
+    }
+
+    /// The object itself.
+    #[must_use]
+    pub const fn node(&self) -> &'a Node<'a> {
+        self.node
+    }
+}
+
+impl Serialize for Value {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Null => serializer.serialize_unit(),
+            Self::Bool(b) => serializer.serialize_bool(*b),
+            Self::Number(x) => serializer.serialize_f64(*x),
+            Self::Text(s) => serializer.serialize_str(s),
+            Self::List(v) => {
+                let mut list = serializer.serialize_seq(Some(v.len()))?;
+                for item in v {
+                    list.serialize_element(item)?;
+                }
+                list.end()
+            }
+            Self::Map(v) => {
+                let mut map = serializer.serialize_map(Some(v.len()))?;
+                for (key, value) in v {
+                    map.serialize_entry(key, value)?;
+                }
+                map.end()
+            }
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Value {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        deserializer.deserialize_any(ValueVisitor)
+    }
+}
+
+struct ValueVisitor;
+
+impl<'de> Visitor<'de> for ValueVisitor {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("plain data: numbers, strings, lists and objects")
+    }
+    fn visit_unit<E>(self) -> std::result::Result<Value, E> {
+        Ok(Value::Null)
+    }
+    fn visit_none<E>(self) -> std::result::Result<Value, E> {
+        Ok(Value::Null)
+    }
+    fn visit_some<D: Deserializer<'de>>(self, deserializer: D) -> std::result::Result<Value, D::Error> {
+        Value::deserialize(deserializer)
+    }
+    fn visit_bool<E>(self, b: bool) -> std::result::Result<Value, E> {
+        Ok(Value::Bool(b))
+    }
+    fn visit_i64<E>(self, x: i64) -> std::result::Result<Value, E> {
+        Ok(Value::Number(x as f64))
+    }
+    fn visit_u64<E>(self, x: u64) -> std::result::Result<Value, E> {
+        Ok(Value::Number(x as f64))
+    }
+    fn visit_f64<E>(self, x: f64) -> std::result::Result<Value, E> {
+        Ok(Value::Number(x))
+    }
+    fn visit_str<E>(self, s: &str) -> std::result::Result<Value, E> {
+        Ok(Value::Text(s.to_owned()))
+    }
+    fn visit_string<E>(self, s: String) -> std::result::Result<Value, E> {
+        Ok(Value::Text(s))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> std::result::Result<Value, A::Error> {
+        let mut items = Vec::with_capacity(seq.size_hint().unwrap_or(0).min(1024));
+        while let Some(item) = seq.next_element()? {
+            items.push(item);
+        }
+        Ok(Value::List(items))
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Value, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(entry) = map.next_entry()? {
+            entries.push(entry);
+        }
+        Ok(Value::Map(entries))
+    }
+}
