@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod math;
+pub mod model;
 pub mod value;
 
 pub use error::{Code, Error, Result};
