@@ -170,6 +170,17 @@ impl<'a> Node<'a> {
         Some(Node { value, parent: Some(self), step: Step::Key(key) })
     }
 
+    /// One of the given words at `key` of an object whose other legal keys depend on that word.
+    ///
+    /// # Errors
+    /// `wrong-type`, `missing-key`, `out-of-range`.
+    pub fn tag<T: Copy>(&self, key: &str, words: &[(&str, T)]) -> Result<T> {
+        let Value::Map(entries) = self.value else {
+            return Err(self.error(Code::WrongType, "must be an object"));
+        };
+        Fields { entries, node: self }.required(key)?.word(words)
+    }
+
     /// A finite number.
     ///
     /// # Errors

@@ -1,3 +1,5 @@
-//! What moves, what is seen, where it may end: the parts of the state-space model.
+//! What moves, what is seen, where it may end and when: the parts of the state-space model.
 
+pub mod arrival;
 pub mod bridge;
+pub mod motion;

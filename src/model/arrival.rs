@@ -1,0 +1,184 @@
+//! Priors on the arrival time `T` and the nodes at which they are summed; Liang (6), Ardeshiri (17).
+//!
+//! All but `horizon` are priors on `T - t_1`, the time from the first observation; `horizon` is one on `T - t_k`, the
+//! time to go, at every step. Every time is greater than zero.
+
+use crate::error::{Code, Result};
+use crate::math::quadrature::{MAX_POINTS, Quadrature};
+use crate::value::{Node, Value};
+
+/// The longest time that a prior can name, in seconds; it keeps every power of a step finite.
+pub const MAX_TIME: f64 = 1e12;
+
+/// Arrival times and the logs of their prior probabilities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// `T - t_1`, or the time to go for `horizon`, in seconds; greater than zero.
+    pub times: Vec<f64>,
+    /// Logs of probabilities that sum to one; minus infinity where a weight is zero.
+    pub log_weights: Vec<f64>,
+}
+
+/// A prior on the arrival time.
+///
+/// ```
+/// use whither::{math::quadrature::Quadrature, model::arrival::Arrival};
+/// let prior = Arrival::Uniform { from: 1.0, to: 3.0 };
+/// let grid = prior.grid(&Quadrature::Trapezoid { points: 3 }, 0.0, 1.0);
+/// assert_eq!(grid.times, [1.0, 2.0, 3.0]);
+/// assert!((grid.log_weights[1] - 0.5f64.ln()).abs() < 1e-15);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrival {
+    /// Evenly between two times from the first observation.
+    Uniform {
+        /// The earliest, in seconds.
+        from: f64,
+        /// The latest, in seconds.
+        to: f64,
+    },
+    /// Some times from the first observation, each with its weight.
+    Discrete {
+        /// The times, in seconds.
+        times: Vec<f64>,
+        /// Weights, at least one of them above zero; they need not sum to one.
+        weights: Vec<f64>,
+    },
+    /// Evenly between two times to go, at every step.
+    Horizon {
+        /// The shortest, in seconds.
+        from: f64,
+        /// The longest, in seconds.
+        to: f64,
+    },
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Uniform,
+    Discrete,
+    Horizon,
+}
+
+const KINDS: [(&str, Kind); 3] = [("uniform", Kind::Uniform), ("discrete", Kind::Discrete), ("horizon", Kind::Horizon)];
+
+impl Arrival {
+    /// Reads `{ "type", ... }`.
+    ///
+    /// # Errors
+    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`.
+    pub fn read(node: &Node<'_>) -> Result<Self> {
+        Ok(match node.tag("type", &KINDS)? {
+            Kind::Uniform => {
+                let (from, to) = interval(node)?;
+                Self::Uniform { from, to }
+            }
+            Kind::Horizon => {
+                let (from, to) = interval(node)?;
+                Self::Horizon { from, to }
+            }
+            Kind::Discrete => discrete(node)?,
+        })
+    }
+
+    /// The prior as a scenario writes it.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        match self {
+            Self::Uniform { from, to } => interval_value("uniform", *from, *to),
+            Self::Horizon { from, to } => interval_value("horizon", *from, *to),
+            Self::Discrete { times, weights } => Value::map([
+                ("type", Value::text("discrete")),
+                ("times", Value::numbers(times)),
+                ("weights", Value::numbers(weights)),
+            ]),
+        }
+    }
+
+    /// Whether it is a prior on the time to go at every step.
+    #[must_use]
+    pub const fn is_horizon(&self) -> bool {
+        matches!(self, Self::Horizon { .. })
+    }
+
+    /// Whether it depends on the destination's distance and size.
+    #[must_use]
+    pub const fn needs_distance(&self) -> bool {
+        false
+    }
+
+    /// The nodes and the logs of their probabilities. `distance`, from the first observation to the destination's
+    /// centre, and `size`, its extent, matter only where [`Arrival::needs_distance`].
+    #[must_use]
+    pub fn grid(&self, quadrature: &Quadrature, _distance: f64, _size: f64) -> Grid {
+        match self {
+            Self::Uniform { from, to } | Self::Horizon { from, to } => {
+                let rule = quadrature.rule();
+                let times = rule.nodes.iter().map(|x| from + (to - from) * x).collect();
+                Grid::new(times, &rule.weights)
+            }
+            Self::Discrete { times, weights } => Grid::new(times.clone(), weights),
+        }
+    }
+}
+
+impl Grid {
+    fn new(times: Vec<f64>, weights: &[f64]) -> Self {
+        let sum: f64 = weights.iter().sum();
+        Self { times, log_weights: weights.iter().map(|w| (w / sum).ln()).collect() }
+    }
+}
+
+fn interval(node: &Node<'_>) -> Result<(f64, f64)> {
+    let fields = node.fields(&["type", "from", "to"])?;
+    let from = time(&fields.required("from")?)?;
+    let latest = fields.required("to")?;
+    let to = time(&latest)?;
+    if to > from {
+        Ok((from, to))
+    } else {
+        let must = format!("must be greater than \"from\", which is {}", crate::value::number(from));
+        Err(latest.error(Code::OutOfRange, &must))
+    }
+}
+
+fn interval_value(kind: &str, from: f64, to: f64) -> Value {
+    Value::map([("type", Value::text(kind)), ("from", Value::Number(from)), ("to", Value::Number(to))])
+}
+
+fn discrete(node: &Node<'_>) -> Result<Arrival> {
+    let fields = node.fields(&["type", "times", "weights"])?;
+    let list = fields.required("times")?;
+    let items = list.items()?;
+    let count = items.len();
+    if count == 0 {
+        return Err(list.error(Code::WrongLength, "must have at least one time"));
+    }
+    if count > MAX_POINTS {
+        return Err(list.error(Code::TooLarge, &format!("must have at most {MAX_POINTS} times, has {count}")));
+    }
+    let times = items.map(|item| time(&item)).collect::<Result<Vec<f64>>>()?;
+    let weights = match fields.optional("weights") {
+        None => vec![1.0; count],
+        Some(list) => {
+            list.vector(Some(count))?;
+            let weights = list.items()?.map(|item| item.not_negative()).collect::<Result<Vec<f64>>>()?;
+            let sum: f64 = weights.iter().sum();
+            if !(sum > 0.0 && sum.is_finite()) {
+                return Err(list.error(Code::OutOfRange, "must have a finite sum greater than 0"));
+            }
+            weights
+        }
+    };
+    Ok(Arrival::Discrete { times, weights })
+}
+
+/// A time in seconds, greater than zero and at most [`MAX_TIME`].
+fn time(node: &Node<'_>) -> Result<f64> {
+    let t = node.number()?;
+    if t > 0.0 && t <= MAX_TIME {
+        Ok(t)
+    } else {
+        Err(node.error(Code::OutOfRange, "must be greater than 0 and at most 1e12 seconds"))
+    }
+}

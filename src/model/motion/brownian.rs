@@ -1,0 +1,50 @@
+//! `brownian`: position alone, driven by white noise.
+//!
+//! ```text
+//! dx = dw          F = 1          M = 0          Q = noise^2 h
+//! ```
+//!
+//! Source: Ardeshiri et al., section 2; the Brownian bridge of the bridging literature.
+
+use super::{AxisTransition, MotionModel, axis_value};
+use crate::value::Value;
+
+pub(super) const KEYS: [&str; 3] = ["type", "dimensions", "noise"];
+
+/// Brownian motion; `s = d`.
+#[derive(Clone, Debug)]
+pub struct Brownian {
+    noise: Vec<f64>,
+}
+
+impl Brownian {
+    pub(super) const fn new(noise: Vec<f64>) -> Self {
+        Self { noise }
+    }
+}
+
+impl MotionModel for Brownian {
+    fn dimensions(&self) -> usize {
+        self.noise.len()
+    }
+
+    fn states(&self) -> usize {
+        self.noise.len()
+    }
+
+    fn axis(&self, axis: usize, step: f64) -> Option<AxisTransition> {
+        let noise = self.noise.get(axis)?;
+        let mut one = AxisTransition { states: 1, ..AxisTransition::default() };
+        one.transition[0][0] = 1.0;
+        one.noise[0][0] = noise * noise * step;
+        Some(one)
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("type", Value::text("brownian")),
+            ("dimensions", Value::Number(self.noise.len() as f64)),
+            ("noise", axis_value(&self.noise)),
+        ])
+    }
+}

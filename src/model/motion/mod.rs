@@ -1,0 +1,314 @@
+//! Motion models: linear, time-invariant, Gaussian; Liang (1).
+//!
+//! ```text
+//! dx = (A x + b + B c) dt + dw,   E[dw dw'] = W dt          c: the centre of the destination that is tried
+//! x_k = F(h) x_{k-1} + M(h) + (B c)(h) + e,   e ~ N(0, Q(h))
+//!
+//! F(h) = exp(A h)    M(h) = int_0^h exp(A u) b du    Q(h) = int_0^h exp(A u) W exp(A' u) du
+//! ```
+//!
+//! The state holds all positions, then all velocities, then all accelerations. `noise` is the square root of the
+//! spectral density `W` of the one driven component of each axis, so `W = noise^2` there and zero elsewhere.
+//!
+//! | `type` | file | states | equation of an axis |
+//! |---|---|---|---|
+//! | `brownian` | [`brownian`] | `d` | `dx = dw` |
+//! | `constantVelocity` | [`constant_velocity`] | `2d` | `dv = dw` |
+
+use crate::error::{Code, Error, Result};
+use crate::value::{Node, Value};
+use nalgebra::{DMatrix, DVector};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+pub mod brownian;
+pub mod constant_velocity;
+
+/// The most axes that a model can have.
+pub const MAX_DIMENSIONS: usize = 3;
+/// The most candidates that `noise` can have.
+pub const MAX_CANDIDATES: usize = 64;
+
+/// One step of a motion model, `x_k = F x_{k-1} + M + B c + e`, `e ~ N(0, Q)`, with `c` the destination's centre.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// `F`, `s` by `s`.
+    pub transition: DMatrix<f64>,
+    /// `M`, of length `s`.
+    pub offset: DVector<f64>,
+    /// `B`, `s` by `d`; none where the model does not know the destination.
+    pub destination_gain: Option<DMatrix<f64>>,
+    /// `Q`, `s` by `s`, symmetric.
+    pub noise: DMatrix<f64>,
+}
+
+/// One step of one axis of a model whose axes do not mix: the same equation with at most three components
+/// (position, velocity, acceleration). What lies beyond `states` is zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisTransition {
+    /// How many components the axis has: 1, 2 or 3.
+    pub states: usize,
+    /// `F`.
+    pub transition: [[f64; 3]; 3],
+    /// `M`.
+    pub offset: [f64; 3],
+    /// `B`, for this axis of the destination's centre; zero where the model does not know the destination.
+    pub destination_gain: [f64; 3],
+    /// `Q`, symmetric.
+    pub noise: [[f64; 3]; 3],
+}
+
+/// A motion model: what it is over any step.
+pub trait MotionModel: Debug + Send + Sync {
+    /// Spatial dimensions `d`, 1 to 3.
+    fn dimensions(&self) -> usize;
+
+    /// State components `s`.
+    fn states(&self) -> usize;
+
+    /// Whether `B` is not zero: the movement knows where it is going.
+    fn depends_on_destination(&self) -> bool {
+        false
+    }
+
+    /// One step of one axis, `step >= 0` seconds; none where axes mix, or there is no such axis.
+    fn axis(&self, axis: usize, step: f64) -> Option<AxisTransition>;
+
+    /// One step of the whole state, `step >= 0` seconds. Zero gives the identity and no noise.
+    fn transition(&self, step: f64) -> Transition {
+        assemble(self.dimensions(), self.states(), self.depends_on_destination(), |axis| self.axis(axis, step))
+    }
+
+    /// The model as a scenario writes it.
+    fn to_value(&self) -> Value;
+}
+
+/// The whole state's step from those of the axes: component `i` of axis `k` stands at `i d + k`.
+#[inline(never)]
+fn assemble(
+    dimensions: usize,
+    states: usize,
+    depends_on_destination: bool,
+    axis: impl Fn(usize) -> Option<AxisTransition>,
+) -> Transition {
+    let mut whole = Transition {
+        transition: DMatrix::zeros(states, states),
+        offset: DVector::zeros(states),
+        destination_gain: depends_on_destination.then(|| DMatrix::zeros(states, dimensions)),
+        noise: DMatrix::zeros(states, states),
+    };
+    for k in 0..dimensions {
+        let Some(one) = axis(k) else { continue };
+        for i in 0..one.states {
+            let row = i * dimensions + k;
+            for j in 0..one.states {
+                whole.transition[(row, j * dimensions + k)] = one.transition[i][j];
+                whole.noise[(row, j * dimensions + k)] = one.noise[i][j];
+            }
+            whole.offset[row] = one.offset[i];
+            if let Some(gain) = &mut whole.destination_gain {
+                gain[(row, k)] = one.destination_gain[i];
+            }
+        }
+    }
+    whole
+}
+
+/// A motion model and its share in the average over noise candidates.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The model.
+    pub model: Arc<dyn MotionModel>,
+    /// Its prior probability; those of all candidates sum to one.
+    pub weight: f64,
+}
+
+/// The `motion` of a scenario: one model, or one for each noise candidate.
+///
+/// ```
+/// use whither::{model::motion::Motion, value::{Node, Value}};
+/// let value = Value::map([
+///     ("type", Value::text("brownian")),
+///     ("dimensions", Value::Number(2.0)),
+///     ("noise", Value::Number(3.0)),
+/// ]);
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(0.5);
+/// assert_eq!(step.noise[(1, 1)], 4.5); // 3^2 * 0.5
+/// assert_eq!(motion.to_value(), value);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// One model, or one for each noise candidate; never empty.
+    pub candidates: Vec<Candidate>,
+    /// How much the noise grows with the speed, `speedNoise`: of `constantVelocity` under the method `pointing` only.
+    pub speed_noise: Option<f64>,
+    dimensions: usize,
+    states: usize,
+    depends_on_destination: bool,
+    /// The weights as they were given, so that a scenario written and read again is the same to the bit.
+    given_weights: Option<Vec<f64>>,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Brownian,
+    ConstantVelocity,
+}
+
+const KINDS: [(&str, Kind); 2] = [("brownian", Kind::Brownian), ("constantVelocity", Kind::ConstantVelocity)];
+
+impl Motion {
+    /// Reads `{ "type", "dimensions", ... }`.
+    ///
+    /// # Errors
+    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`.
+    pub fn read(node: &Node<'_>) -> Result<Self> {
+        let kind = node.tag("type", &KINDS)?;
+        let fields = node.fields(match kind {
+            Kind::Brownian => &brownian::KEYS,
+            Kind::ConstantVelocity => &constant_velocity::KEYS,
+        })?;
+        let dimensions = dimensions(&fields.required("dimensions")?)?;
+        let noise = NoiseCandidates::read(&fields.required("noise")?, dimensions)?;
+        let build = |noise: Vec<f64>| -> Result<Arc<dyn MotionModel>> {
+            Ok(match kind {
+                Kind::Brownian => Arc::new(brownian::Brownian::new(noise)),
+                Kind::ConstantVelocity => Arc::new(constant_velocity::ConstantVelocity::new(noise)),
+            })
+        };
+        let models = noise.noises.into_iter().map(build).collect::<Result<Vec<_>>>()?;
+        let speed_noise = match fields.optional("speedNoise") {
+            Some(node) => Some(node.not_negative()?),
+            None => None,
+        };
+        Self::average(models, noise.weights, speed_noise, node)
+    }
+
+    fn average(
+        models: Vec<Arc<dyn MotionModel>>,
+        given_weights: Option<Vec<f64>>,
+        speed_noise: Option<f64>,
+        node: &Node<'_>,
+    ) -> Result<Self> {
+        let Some(first) = models.first().cloned() else {
+            return Err(node.error(Code::WrongLength, "must have at least one noise candidate"));
+        };
+        let weights = given_weights.clone().unwrap_or_else(|| vec![1.0; models.len()]);
+        let sum: f64 = weights.iter().sum();
+        Ok(Self {
+            candidates: models
+                .into_iter()
+                .zip(weights)
+                .map(|(model, weight)| Candidate { model, weight: weight / sum })
+                .collect(),
+            speed_noise,
+            dimensions: first.dimensions(),
+            states: first.states(),
+            depends_on_destination: first.depends_on_destination(),
+            given_weights,
+        })
+    }
+
+    /// Spatial dimensions `d`.
+    #[must_use]
+    pub const fn dimensions(&self) -> usize {
+        self.dimensions
+    }
+
+    /// State components `s`.
+    #[must_use]
+    pub const fn states(&self) -> usize {
+        self.states
+    }
+
+    /// Whether the movement knows where it is going; the same for every candidate.
+    #[must_use]
+    pub const fn depends_on_destination(&self) -> bool {
+        self.depends_on_destination
+    }
+
+    /// The motion as a scenario writes it; reading it again gives the same.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        let mut entries = match self.candidates.first().map(|c| c.model.to_value()) {
+            Some(Value::Map(entries)) => entries,
+            _ => Vec::new(),
+        };
+        if self.candidates.len() > 1 || self.given_weights.is_some() {
+            let each = self.candidates.iter().filter_map(|c| noise_of(c.model.to_value())).collect();
+            let mut noise = vec![("candidates".to_owned(), Value::List(each))];
+            if let Some(weights) = &self.given_weights {
+                noise.push(("weights".to_owned(), Value::numbers(weights)));
+            }
+            for (key, value) in &mut entries {
+                if key == "noise" {
+                    *value = Value::Map(std::mem::take(&mut noise));
+                }
+            }
+        }
+        if let Some(speed_noise) = self.speed_noise {
+            entries.push(("speedNoise".to_owned(), Value::Number(speed_noise)));
+        }
+        Value::Map(entries)
+    }
+}
+
+fn noise_of(model: Value) -> Option<Value> {
+    let Value::Map(entries) = model else { return None };
+    entries.into_iter().find_map(|(key, value)| (key == "noise").then_some(value))
+}
+
+fn dimensions(node: &Node<'_>) -> Result<usize> {
+    node.whole(1, MAX_DIMENSIONS).map_err(|error| match error.code() {
+        Code::TooLarge => Error::new(Code::OutOfRange, error.path(), error.message()),
+        _ => error,
+    })
+}
+
+/// `noise`: a number, one for each axis, or `{ "candidates", "weights"? }`.
+struct NoiseCandidates {
+    noises: Vec<Vec<f64>>,
+    weights: Option<Vec<f64>>,
+}
+
+impl NoiseCandidates {
+    fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
+        if !matches!(node.value(), Value::Map(_)) {
+            return Ok(Self { noises: vec![node.for_each_axis(dimensions, |n| n.positive())?], weights: None });
+        }
+        let fields = node.fields(&["candidates", "weights"])?;
+        let candidates = fields.required("candidates")?;
+        let items = candidates.items()?;
+        let count = items.len();
+        if count == 0 {
+            return Err(candidates.error(Code::WrongLength, "must have at least one candidate"));
+        }
+        if count > MAX_CANDIDATES {
+            let must = format!("must have at most {MAX_CANDIDATES} candidates, has {count}");
+            return Err(candidates.error(Code::TooLarge, &must));
+        }
+        let noises =
+            items.map(|item| item.for_each_axis(dimensions, |n| n.positive())).collect::<Result<Vec<Vec<f64>>>>()?;
+        let weights = match fields.optional("weights") {
+            None => None,
+            Some(weights) => {
+                weights.vector(Some(count))?;
+                let given = weights.items()?.map(|item| item.positive()).collect::<Result<Vec<f64>>>()?;
+                if !given.iter().sum::<f64>().is_finite() {
+                    return Err(weights.error(Code::OutOfRange, "must have a finite sum"));
+                }
+                Some(given)
+            }
+        };
+        Ok(Self { noises, weights })
+    }
+}
+
+/// One number where all axes have the same, a list where they differ.
+fn axis_value(axes: &[f64]) -> Value {
+    match axes {
+        [first, rest @ ..] if rest.iter().all(|x| x == first) => Value::Number(*first),
+        _ => Value::numbers(axes),
+    }
+}
