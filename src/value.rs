@@ -38,10 +38,54 @@ impl Value {
         Self::List(numbers.into_iter().map(|&x| Self::Number(x)).collect())
     }
 
+    /// A number that any format must give back to the bit: what JSON cannot say (NaN, infinities, minus zero) becomes text.
+    #[must_use]
+    pub fn exact(x: f64) -> Self {
+        if x.is_finite() && x.to_bits() != (-0.0f64).to_bits() {
+            Self::Number(x)
+        } else {
+            Self::Text(if x == 0.0 { "-0".to_owned() } else { number(x) })
+        }
+    }
+
+    /// A list of numbers as [`Value::exact`].
+    pub fn exact_numbers<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+        Self::List(numbers.into_iter().map(|&x| Self::exact(x)).collect())
+    }
+
     /// A piece of text.
     #[must_use]
     pub fn text(text: &str) -> Self {
         Self::Text(text.to_owned())
+    }
+
+    /// Appends words that tell this value from every other one: its kind, its length, its contents.
+    pub fn bits(&self, words: &mut Vec<u64>) {
+        let text = |s: &str, words: &mut Vec<u64>| {
+            words.push(s.len() as u64);
+            words.extend(s.bytes().map(u64::from));
+        };
+        match self {
+            Self::Null => words.push(0),
+            Self::Bool(b) => words.extend([1, u64::from(*b)]),
+            // minus zero is zero here: JSON in JavaScript does not tell them apart
+            Self::Number(x) => words.extend([2, (x + 0.0).to_bits()]),
+            Self::Text(s) => {
+                words.push(3);
+                text(s, words);
+            }
+            Self::List(items) => {
+                words.extend([4, items.len() as u64]);
+                items.iter().for_each(|item| item.bits(words));
+            }
+            Self::Map(entries) => {
+                words.extend([5, entries.len() as u64]);
+                for (key, value) in entries {
+                    text(key, words);
+                    value.bits(words);
+                }
+            }
+        }
     }
 
     /// How an error message quotes this value: short, and one line.
@@ -225,6 +269,37 @@ impl<'a> Node<'a> {
             return Err(self.error(Code::TooLarge, &must()));
         }
         Ok(x as usize)
+    }
+
+    /// A number that [`Value::exact`] wrote.
+    ///
+    /// # Errors
+    /// `wrong-type`.
+    pub fn exact(&self) -> Result<f64> {
+        match self.value {
+            Value::Number(x) => Ok(*x),
+            Value::Text(s) => match s.as_str() {
+                "-0" => Ok(-0.0),
+                "NaN" => Ok(f64::NAN),
+                "Infinity" => Ok(f64::INFINITY),
+                "-Infinity" => Ok(f64::NEG_INFINITY),
+                _ => Err(self.error(Code::WrongType, "must be a number")),
+            },
+            _ => Err(self.error(Code::WrongType, "must be a number")),
+        }
+    }
+
+    /// A list of `length` numbers that [`Value::exact_numbers`] wrote.
+    ///
+    /// # Errors
+    /// `wrong-type`, `wrong-length`.
+    pub fn exact_numbers(&self, length: usize) -> Result<Vec<f64>> {
+        let items = self.items()?;
+        if items.len() != length {
+            let must = format!("must have {length} numbers, has {}", items.len());
+            return Err(self.error(Code::WrongLength, &must));
+        }
+        items.map(|item| item.exact()).collect()
     }
 
     /// A string.

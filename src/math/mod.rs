@@ -1,4 +1,6 @@
 //! Gaussian algebra, quadrature and the matrix exponential: everything that knows no motion model.
 
 pub mod gaussian;
+pub mod kalman;
+pub mod log_sum_exp;
 pub mod quadrature;

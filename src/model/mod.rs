@@ -2,4 +2,8 @@
 
 pub mod arrival;
 pub mod bridge;
+pub mod destination;
+pub mod endpoint;
+pub mod initial;
 pub mod motion;
+pub mod observation;

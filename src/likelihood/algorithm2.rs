@@ -1,0 +1,79 @@
+//! `algorithm2`: Liang's Algorithm 2, (12)-(13).
+//!
+//! The posterior of `x_{k-1}` is conditioned on the pseudo-observation, (12), as a smoother would; then the transition to
+//! `x_k`, itself conditioned on the pseudo-observation, gives the observation's density (13).
+//!
+//! The printed (13) has `F(h) mu - M(h)` where the prediction of `x_k` is `F(h) mu + M(h)`. With the printed sign
+//! Algorithm 2 contradicts Algorithm 1 whenever `M` is not zero; here it is put right (`tests/native/errata.rs` shows both).
+
+use super::{Likelihood, Scene, Step};
+use crate::error::Result;
+use crate::math::gaussian::{Factor, condition, propagate};
+use crate::model::endpoint::Endpoint;
+use crate::value::{Node, Value};
+use nalgebra::DVector;
+
+/// The engine: log likelihoods for each destination and node.
+#[derive(Clone, Debug, Default)]
+pub struct Algorithm2 {
+    table: Vec<f64>,
+}
+
+impl Likelihood for Algorithm2 {
+    fn begin(&mut self, scene: &Scene<'_>) {
+        self.table = vec![0.0; scene.table_length()];
+    }
+
+    fn advance(&mut self, scene: &Scene<'_>, step: &Step<'_>) {
+        if step.measurement.value.is_empty() {
+            return;
+        }
+        let posterior = step.before.current_covariance();
+        let transition = step.transition;
+        let observation = &step.measurement.matrix;
+        let waited = scene.elapsed - step.elapsed_before;
+        for node in scene.nodes_ahead(scene.elapsed) {
+            let length = node.covariance.nrows();
+            // (12): x_{k-1} given the pseudo-observation
+            let whole = Endpoint::after(scene.motion, node.remaining + waited, length);
+            // (13): x_k given x_{k-1} and the pseudo-observation; L_y, and (I - L_y B_y) Q as Joseph's form has it
+            let rest = Endpoint::after(scene.motion, node.remaining, length);
+            let (Some(before), Some(onward)) = (
+                condition(&posterior, &whole.matrix, &(&whole.noise + node.covariance)),
+                condition(&transition.noise, &rest.matrix, &(&rest.noise + node.covariance)),
+            ) else {
+                continue;
+            };
+            let prediction = &transition.transition - &onward.gain * (&rest.matrix * &transition.transition);
+            let state = propagate(&prediction, &before.covariance, &onward.covariance);
+            let Some(density) = Factor::new(propagate(observation, &state, &step.measurement.noise)) else { continue };
+            for &i in &node.group.members {
+                let i = i as usize;
+                let mean = step.before.mean(i);
+                let smoothed = &mean + &before.gain * scene.endpoint_error(i, &whole, &mean);
+                let moved: DVector<f64> =
+                    &transition.transition * smoothed + transition.constant(scene.destinations.center(i));
+                let bridged = &moved + &onward.gain * scene.endpoint_error(i, &rest, &moved);
+                self.table[scene.plan.rows[i] + node.index] +=
+                    density.log_density(&(&step.measurement.value - observation * bridged));
+            }
+        }
+    }
+
+    fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {
+        scene.copy_nodes_ahead(&self.table, table);
+    }
+
+    fn boxed(&self) -> Box<dyn Likelihood> {
+        Box::new(self.clone())
+    }
+
+    fn save(&self) -> Value {
+        Value::exact_numbers(&self.table)
+    }
+
+    fn load(&mut self, scene: &Scene<'_>, node: &Node<'_>) -> Result<()> {
+        self.table = node.exact_numbers(scene.table_length())?;
+        Ok(())
+    }
+}

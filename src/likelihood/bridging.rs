@@ -1,0 +1,119 @@
+//! `bridging`: the original bridging distributions (Liang's references [12]-[14]).
+//!
+//! The endpoint `z = G~ x_T ~ N(a_i, S_i)` is independent of `x_1`, and the state moves towards it by the bridged
+//! transition of [`crate::model::bridge`]. For each destination and arrival time one Kalman filter runs on `[x_k; z]`; its
+//! evidence is the likelihood. Covariances and gains are the same for all destinations of a kind, so they are kept once.
+
+use super::{Likelihood, Scene, Step};
+use crate::error::Result;
+use crate::math::gaussian::{condition, propagate};
+use crate::model::bridge::Bridge;
+use crate::value::{Node, Value};
+use nalgebra::{DMatrix, DVector};
+
+/// The engine: a covariance for each group and node, a mean and a log evidence for each destination and node.
+#[derive(Clone, Debug, Default)]
+pub struct Bridging {
+    /// `s + l` square, one for each group and node.
+    covariances: Vec<DMatrix<f64>>,
+    /// `[x_k; z]` for each destination and node, `2 s` numbers apart.
+    means: Vec<f64>,
+    table: Vec<f64>,
+}
+
+impl Bridging {
+    fn stride(scene: &Scene<'_>) -> usize {
+        2 * scene.filter.states
+    }
+}
+
+impl Likelihood for Bridging {
+    fn begin(&mut self, scene: &Scene<'_>) {
+        let (s, stride) = (scene.filter.states, Self::stride(scene));
+        self.table = vec![0.0; scene.table_length()];
+        self.means = vec![0.0; scene.table_length() * stride];
+        self.covariances = vec![DMatrix::zeros(0, 0); scene.node_count()];
+        for node in scene.nodes_ahead(scene.elapsed) {
+            let l = node.covariance.nrows();
+            let mut joint = DMatrix::zeros(s + l, s + l);
+            joint.view_mut((0, 0), (s, s)).copy_from(&scene.first.covariance);
+            joint.view_mut((s, s), (l, l)).copy_from(node.covariance);
+            self.covariances[node.number] = joint;
+            for &i in &node.group.members {
+                let place = (scene.plan.rows[i as usize] + node.index) * stride;
+                self.means[place..place + s].copy_from_slice(scene.first.mean.as_slice());
+                self.means[place + s..place + s + l].copy_from_slice(scene.destinations.mean(i as usize));
+            }
+        }
+    }
+
+    fn advance(&mut self, scene: &Scene<'_>, step: &Step<'_>) {
+        let (s, stride) = (scene.filter.states, Self::stride(scene));
+        let m = step.measurement.value.len();
+        for node in scene.nodes_ahead(scene.elapsed) {
+            let l = node.covariance.nrows();
+            let rest = scene.motion.transition(node.remaining);
+            let (h, r) = (step.transition, &rest);
+            let Some(bridge) = Bridge::new(&h.transition, &h.noise, &r.transition, &r.noise, l) else { continue };
+            let mut onward = DMatrix::identity(s + l, s + l);
+            onward.view_mut((0, 0), (s, s)).copy_from(&bridge.previous);
+            onward.view_mut((0, s), (s, l)).copy_from(&bridge.destination);
+            let mut noise = DMatrix::zeros(s + l, s + l);
+            noise.view_mut((0, 0), (s, s)).copy_from(&bridge.covariance);
+            let predicted = propagate(&onward, &self.covariances[node.number], &noise);
+            let mut observation = DMatrix::zeros(m, s + l);
+            observation.columns_mut(0, s).copy_from(&step.measurement.matrix);
+            let correction = if m == 0 {
+                None
+            } else {
+                let Some(correction) = condition(&predicted, &observation, &step.measurement.noise) else { continue };
+                Some(correction)
+            };
+            for &i in &node.group.members {
+                let i = i as usize;
+                let row = scene.plan.rows[i] + node.index;
+                let place = row * stride;
+                let mut mean = &onward * DVector::from_column_slice(&self.means[place..place + s + l]);
+                let center = scene.destinations.center(i);
+                let offset = bridge.offset(&h.constant(center), &r.constant(center));
+                mean.rows_mut(0, s).zip_apply(&offset, |x, o| *x += o);
+                if let Some(correction) = &correction {
+                    let error = &step.measurement.value - &observation * &mean;
+                    self.table[row] += correction.prediction_error.log_density(&error);
+                    mean += &correction.gain * error;
+                }
+                self.means[place..place + s + l].copy_from_slice(mean.as_slice());
+            }
+            self.covariances[node.number] = correction.map_or(predicted, |correction| correction.covariance);
+        }
+    }
+
+    fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {
+        scene.copy_nodes_ahead(&self.table, table);
+    }
+
+    fn boxed(&self) -> Box<dyn Likelihood> {
+        Box::new(self.clone())
+    }
+
+    fn save(&self) -> Value {
+        Value::map([
+            ("evidence", Value::exact_numbers(&self.table)),
+            ("means", Value::exact_numbers(&self.means)),
+            ("covariances", Value::List(self.covariances.iter().map(|c| Value::exact_numbers(c.iter())).collect())),
+        ])
+    }
+
+    fn load(&mut self, scene: &Scene<'_>, node: &Node<'_>) -> Result<()> {
+        self.begin(&Scene { elapsed: 0.0, ..*scene });
+        let fields = node.fields(&["evidence", "means", "covariances"])?;
+        self.table = fields.required("evidence")?.exact_numbers(self.table.len())?;
+        self.means = fields.required("means")?.exact_numbers(self.means.len())?;
+        let list = fields.required("covariances")?;
+        for (covariance, item) in self.covariances.iter_mut().zip(list.items()?) {
+            let (rows, columns) = covariance.shape();
+            *covariance = DMatrix::from_column_slice(rows, columns, &item.exact_numbers(rows * columns)?);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,256 @@
+//! One movement under every noise candidate.
+//!
+//! Each candidate has its filter and its engine; what they say is averaged by evidence (Bayesian model averaging),
+//! `p(y_2:k | y_1, D_i, T) = sum_c w_c p(y_2:k | y_1, D_i, T, c)`.
+
+use super::plan::Plan;
+use super::{Likelihood, Method, Scene, Step};
+use crate::error::Result;
+use crate::math::gaussian::Gaussian;
+use crate::math::kalman::{Filter, Measurement, TimeUpdate};
+use crate::math::log_sum_exp::log_sum_exp;
+use crate::model::destination::Destinations;
+use crate::model::motion::{Motion, MotionModel, Transition};
+use crate::value::{Node, Value};
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
+
+/// The movement under one noise candidate.
+#[derive(Debug)]
+pub struct World {
+    /// `ln w_c`.
+    pub log_weight: f64,
+    /// The motion model with this noise.
+    pub model: Arc<dyn MotionModel>,
+    /// Its Kalman posterior.
+    pub filter: Filter,
+    engine: Box<dyn Likelihood>,
+}
+
+impl Clone for World {
+    fn clone(&self) -> Self {
+        Self {
+            log_weight: self.log_weight,
+            model: Arc::clone(&self.model),
+            filter: self.filter.clone(),
+            engine: self.engine.boxed(),
+        }
+    }
+}
+
+/// A movement so far.
+#[derive(Clone, Debug)]
+pub struct Movement {
+    /// The arrival nodes.
+    pub plan: Plan,
+    /// `p(x_1 | y_1)`.
+    pub first: Gaussian,
+    /// One for each noise candidate.
+    pub worlds: Vec<World>,
+    /// `t_k - t_1`.
+    pub elapsed: f64,
+    /// `k`, the number of observations.
+    pub observations: u64,
+}
+
+impl Movement {
+    /// A movement at its first observation.
+    #[must_use]
+    pub fn begin(motion: &Motion, method: Method, destinations: &Destinations, plan: Plan, first: Gaussian) -> Self {
+        let columns = if motion.depends_on_destination() { destinations.len() } else { 1 };
+        let worlds = motion.candidates.iter().map(|candidate| World {
+            log_weight: candidate.weight.ln(),
+            model: Arc::clone(&candidate.model),
+            filter: Filter::new(&first, columns),
+            engine: method.engine(),
+        });
+        let mut movement = Self { plan, worlds: worlds.collect(), first, elapsed: 0.0, observations: 1 };
+        movement
+            .each_engine(destinations, |engine, scene| {
+                engine.begin(scene);
+                Ok(())
+            })
+            .unwrap_or_default();
+        movement
+    }
+
+    fn each_engine(
+        &mut self,
+        destinations: &Destinations,
+        mut act: impl FnMut(&mut dyn Likelihood, &Scene<'_>) -> Result<()>,
+    ) -> Result<()> {
+        for World { model, filter, engine, .. } in &mut self.worlds {
+            let scene = Scene {
+                motion: model.as_ref(),
+                destinations,
+                plan: &self.plan,
+                first: &self.first,
+                filter,
+                elapsed: self.elapsed,
+            };
+            act(engine.as_mut(), &scene)?;
+        }
+        Ok(())
+    }
+
+    /// Takes an observation in, `step` seconds after the last one.
+    pub fn advance(&mut self, destinations: &Destinations, step: f64, measurement: &Measurement) {
+        let elapsed_before = self.elapsed;
+        self.elapsed += step;
+        self.observations += 1;
+        for World { model, filter, engine, .. } in &mut self.worlds {
+            let transition = model.transition(step);
+            let before = filter.clone();
+            let offsets = offsets(&transition, destinations, filter.means.ncols());
+            filter.predict(&TimeUpdate {
+                transition: &transition.transition,
+                offsets: &offsets,
+                noise: &transition.noise,
+            });
+            let predicted = filter.clone();
+            filter.correct(measurement);
+            let scene = Scene {
+                motion: model.as_ref(),
+                destinations,
+                plan: &self.plan,
+                first: &self.first,
+                filter,
+                elapsed: self.elapsed,
+            };
+            let step =
+                Step { before: &before, predicted: &predicted, transition: &transition, measurement, elapsed_before };
+            engine.advance(&scene, &step);
+        }
+    }
+
+    /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as [`Plan::rows`] says.
+    pub fn joint(&self, destinations: &Destinations, tables: &mut Vec<Vec<f64>>) {
+        let length = self.plan.rows.last().copied().unwrap_or(0);
+        tables.resize_with(self.worlds.len(), Vec::new);
+        for (World { log_weight, model, filter, engine }, table) in self.worlds.iter().zip(tables) {
+            table.clear();
+            table.resize(length, 0.0);
+            if self.observations > 1 {
+                let scene = Scene {
+                    motion: model.as_ref(),
+                    destinations,
+                    plan: &self.plan,
+                    first: &self.first,
+                    filter,
+                    elapsed: self.elapsed,
+                };
+                engine.log_likelihoods(&scene, table);
+            }
+            for i in 0..self.plan.grid_of.len() {
+                let row = &mut table[self.plan.rows[i]..self.plan.rows[i + 1]];
+                for (value, log_prior) in row.iter_mut().zip(&self.plan.grid(i).log_weights) {
+                    *value += log_weight + log_prior;
+                    if value.is_nan() {
+                        *value = f64::NEG_INFINITY;
+                    }
+                }
+            }
+        }
+    }
+
+    /// `log p(y_2:k | y_1)` where the object is going to none of them: the ratio of the telescoped form is one. A motion
+    /// model that knows the destination is averaged over the destinations' centres by their priors.
+    #[must_use]
+    pub fn log_evidence_of_none(&self, priors: &[f64]) -> f64 {
+        let total: f64 = priors.iter().sum();
+        let mut terms = Vec::new();
+        for world in &self.worlds {
+            let evidence = &world.filter.log_evidence;
+            if evidence.len() == 1 {
+                terms.push(world.log_weight + evidence[0]);
+            } else {
+                let each = evidence.iter().zip(priors);
+                terms.extend(each.map(|(evidence, prior)| world.log_weight + evidence + (prior / total).ln()));
+            }
+        }
+        log_sum_exp(&terms)
+    }
+
+    /// Other destinations in mid-movement, where nothing is accumulated for each of them: `origin` tells which old one each
+    /// new one was, where the motion model knows the destination.
+    pub fn replan(&mut self, plan: Plan, origin: Option<&[usize]>) {
+        self.plan = plan;
+        let Some(origin) = origin else { return };
+        for world in &mut self.worlds {
+            let filter = &mut world.filter;
+            filter.means = filter.means.select_columns(origin);
+            filter.log_evidence = origin.iter().map(|&i| filter.log_evidence[i]).collect();
+        }
+    }
+
+    /// What a snapshot keeps.
+    #[must_use]
+    pub fn save(&self) -> Value {
+        let matrix = |m: &DMatrix<f64>| Value::exact_numbers(m.iter());
+        let worlds = self.worlds.iter().map(|world| {
+            Value::map([
+                ("means", matrix(&world.filter.means)),
+                ("covariance", matrix(&world.filter.covariance)),
+                ("evidence", Value::exact_numbers(&world.filter.log_evidence)),
+                ("engine", world.engine.save()),
+            ])
+        });
+        Value::map([
+            ("elapsed", Value::exact(self.elapsed)),
+            ("observations", Value::Number(self.observations as f64)),
+            ("firstMean", Value::exact_numbers(self.first.mean.iter())),
+            ("firstCovariance", matrix(&self.first.covariance)),
+            ("worlds", Value::List(worlds.collect())),
+        ])
+    }
+
+    /// The movement that [`Movement::save`] wrote.
+    ///
+    /// # Errors
+    /// Those of reading a value.
+    pub fn load(
+        node: &Node<'_>,
+        motion: &Motion,
+        method: Method,
+        destinations: &Destinations,
+        plan: Plan,
+    ) -> Result<Self> {
+        let fields = node.fields(&["elapsed", "observations", "firstMean", "firstCovariance", "worlds"])?;
+        let s = motion.states();
+        let first = Gaussian {
+            mean: DVector::from_vec(fields.required("firstMean")?.exact_numbers(s)?),
+            covariance: DMatrix::from_vec(s, s, fields.required("firstCovariance")?.exact_numbers(s * s)?),
+        };
+        let mut movement = Self::begin(motion, method, destinations, plan, first);
+        movement.elapsed = fields.required("elapsed")?.exact()?;
+        movement.observations = fields.required("observations")?.positive()? as u64;
+        let list = fields.required("worlds")?;
+        let items: Vec<Node<'_>> = list.items()?.collect();
+        for (world, item) in movement.worlds.iter_mut().zip(&items) {
+            let fields = item.fields(&["means", "covariance", "evidence", "engine"])?;
+            let (columns, rows) = (world.filter.means.ncols(), 2 * s);
+            let means = fields.required("means")?.exact_numbers(rows * columns)?;
+            world.filter.means = DMatrix::from_vec(rows, columns, means);
+            let covariance = fields.required("covariance")?.exact_numbers(rows * rows)?;
+            world.filter.covariance = DMatrix::from_vec(rows, rows, covariance);
+            world.filter.log_evidence = fields.required("evidence")?.exact_numbers(columns)?;
+        }
+        let mut engines = items.iter();
+        movement.each_engine(destinations, |engine, scene| {
+            match engines.next().and_then(|item| item.get("engine")) {
+                Some(saved) => engine.load(scene, &saved),
+                None => Ok(()),
+            }
+        })?;
+        Ok(movement)
+    }
+}
+
+/// `M(h)` for every column of means.
+fn offsets(transition: &Transition, destinations: &Destinations, columns: usize) -> DMatrix<f64> {
+    if transition.destination_gain.is_none() {
+        return DMatrix::from_column_slice(transition.offset.len(), 1, transition.offset.as_slice());
+    }
+    let each: Vec<DVector<f64>> = (0..columns).map(|i| transition.constant(destinations.center(i))).collect();
+    DMatrix::from_columns(&each)
+}

@@ -1,0 +1,115 @@
+//! Which arrival times are tried for which destination: the nodes of (6), and the destinations that share them.
+
+use crate::math::log_sum_exp::log_sum_exp;
+use crate::math::quadrature::Quadrature;
+use crate::model::arrival::{Arrival, Grid};
+use crate::model::destination::Destinations;
+
+/// Destinations that have both the arrival nodes and the kind of endpoint in common: every matrix serves all of them.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Which grid of nodes.
+    pub grid: usize,
+    /// Which kind of endpoint.
+    pub kind: usize,
+    /// The destinations.
+    pub members: Vec<u32>,
+}
+
+/// The arrival nodes of all destinations. Times count from the first observation, or from now for a `horizon`.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The distinct grids.
+    pub grids: Vec<Grid>,
+    /// The destinations by grid and kind.
+    pub groups: Vec<Group>,
+    /// The grid of each destination.
+    pub grid_of: Vec<u32>,
+    /// Where each destination's row begins in a table over all its nodes, and at last the length of that table.
+    pub rows: Vec<usize>,
+    /// Whether a grid counts from now, not from the first observation.
+    horizons: Vec<bool>,
+}
+
+impl Plan {
+    /// The nodes for `destinations`, whose arrival priors are their own or `arrival`; `start` is the first position.
+    #[must_use]
+    pub fn new(destinations: &Destinations, arrival: &Arrival, quadrature: &Quadrature, start: &[f64]) -> Self {
+        let mut plan = Self {
+            grids: Vec::new(),
+            groups: Vec::new(),
+            grid_of: Vec::with_capacity(destinations.len()),
+            rows: vec![0],
+            horizons: Vec::new(),
+        };
+        let kinds = destinations.kinds();
+        // a grid for each kind's own prior, one for all that have none; a grid for each destination under Fitts's law
+        let mut shared: Vec<Option<u32>> = vec![None; kinds.len()];
+        let mut default: Option<u32> = None;
+        let mut group_of = std::collections::HashMap::new();
+        for i in 0..destinations.len() {
+            let kind_number = destinations.kind_of()[i] as usize;
+            let kind = &kinds[kind_number];
+            let prior = kind.arrival.as_ref().unwrap_or(arrival);
+            let known = if kind.arrival.is_some() { &mut shared[kind_number] } else { &mut default };
+            let grid = match *known {
+                Some(grid) if !prior.needs_distance() => grid,
+                _ => {
+                    let offsets = destinations.center(i).iter().zip(start).map(|(a, y)| (a - y) * (a - y));
+                    let distance = offsets.sum::<f64>().sqrt();
+                    plan.horizons.push(prior.is_horizon());
+                    plan.grids.push(prior.grid(quadrature, distance, kind.extent(destinations.dimensions())));
+                    plan.grids.len() as u32 - 1
+                }
+            };
+            *known = Some(grid);
+            let group = *group_of.entry((grid, kind_number)).or_insert_with(|| {
+                plan.groups.push(Group { grid: grid as usize, kind: kind_number, members: Vec::new() });
+                plan.groups.len() - 1
+            });
+            plan.groups[group].members.push(i as u32);
+            plan.grid_of.push(grid);
+            plan.rows.push(plan.rows[i] + plan.grids[grid as usize].times.len());
+        }
+        plan
+    }
+
+    /// The nodes of destination `i`.
+    #[must_use]
+    pub fn grid(&self, i: usize) -> &Grid {
+        &self.grids[self.grid_of[i] as usize]
+    }
+
+    /// The time from `elapsed` until a node of `grid`; zero or less where it has passed.
+    #[must_use]
+    pub fn remaining(&self, grid: usize, time: f64, elapsed: f64) -> f64 {
+        if self.horizons[grid] { time } else { time - elapsed }
+    }
+
+    /// A node of `grid` as a time since the first observation, seen at `elapsed`.
+    #[must_use]
+    pub fn since_first(&self, grid: usize, time: f64, elapsed: f64) -> f64 {
+        if self.horizons[grid] { time + elapsed } else { time }
+    }
+
+    /// Whether some node with weight still lies after `elapsed`.
+    #[must_use]
+    pub fn is_alive(&self, elapsed: f64) -> bool {
+        self.grids.iter().enumerate().any(|(g, grid)| {
+            let mut nodes = grid.times.iter().zip(&grid.log_weights);
+            nodes.any(|(&time, &weight)| weight > f64::NEG_INFINITY && self.remaining(g, time, elapsed) > 0.0)
+        })
+    }
+
+    /// (6): `log p(y_2:k | y_1, D_i)` for every destination, from the table over its nodes.
+    pub fn marginalise(&self, table: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        let mut joint = Vec::new();
+        for i in 0..self.grid_of.len() {
+            joint.clear();
+            let weights = &self.grid(i).log_weights;
+            joint.extend(table[self.rows[i]..self.rows[i + 1]].iter().zip(weights).map(|(l, w)| l + w));
+            out.push(log_sum_exp(&joint));
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! `pseudoObservation`: the product of Liang's prediction errors (11), telescoped.
+//!
+//! ```text
+//! log p(y_2:k | y_1, D_i, T) = log p(y_2:k | y_1)
+//!                            + log N(a_i; G~(F_R m_k + M_R), G~(F_R P_k F_R' + Q_R)G~' + S_i)    R = T - t_k
+//!                            - log N(a_i; G~(F_R m_1 + M_R), G~(F_R P_1 F_R' + Q_R)G~' + S_i)    R = T - t_1
+//! ```
+//! with `m, P` the Kalman posterior: each factor of (11) is the ratio of two such densities, by (7). Nothing accumulates for
+//! a destination or a node, so both may change at any time.
+
+use super::{Likelihood, Scene};
+use crate::math::gaussian::{Factor, propagate};
+use crate::model::endpoint::Endpoint;
+
+/// The engine; it keeps nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PseudoObservation;
+
+impl Likelihood for PseudoObservation {
+    fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {
+        table.fill(f64::NEG_INFINITY);
+        let covariance = scene.filter.current_covariance();
+        for node in scene.nodes_ahead(scene.elapsed) {
+            let length = node.covariance.nrows();
+            let now = Endpoint::after(scene.motion, node.remaining, length);
+            let start = Endpoint::after(scene.motion, node.since_first, length);
+            let density = |endpoint: &Endpoint, covariance| {
+                Factor::new(propagate(&endpoint.matrix, covariance, &(&endpoint.noise + node.covariance)))
+            };
+            let (Some(from_now), Some(from_start)) =
+                (density(&now, &covariance), density(&start, &scene.first.covariance))
+            else {
+                continue;
+            };
+            for &i in &node.group.members {
+                let i = i as usize;
+                table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i)
+                    + from_now.log_density(&scene.endpoint_error(i, &now, &scene.filter.mean(i)))
+                    - from_start.log_density(&scene.endpoint_error(i, &start, &scene.first.mean));
+            }
+        }
+    }
+
+    fn boxed(&self) -> Box<dyn Likelihood> {
+        Box::new(*self)
+    }
+}

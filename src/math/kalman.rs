@@ -1,0 +1,159 @@
+//! The Kalman filter over the pair (state at the first observation, state now).
+//!
+//! Liang (8) and the usual correction. The first state rides along, so that the filter is also the fixed-point smoother
+//! of Ardeshiri, section 3. Covariances and gains depend on no value: one of each serves every column of means. There is
+//! one column where the motion model does not know the destination, and one for each destination where it does.
+
+use super::gaussian::{Gaussian, condition, propagate};
+use nalgebra::{DMatrix, DVector};
+
+/// A linear observation `y = G x + v`, `v ~ N(0, V)`, as it was made: missing axes have no row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// `y`, of length `m`; zero where nothing was measured at all.
+    pub value: DVector<f64>,
+    /// `G`, `m` by `s`.
+    pub matrix: DMatrix<f64>,
+    /// `V`, `m` by `m`.
+    pub noise: DMatrix<f64>,
+}
+
+/// Mean columns and one covariance of `[x_1; x_k]`, and the log evidence `log p(y_2:k | y_1)` of each column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filter {
+    /// Number of components `s` of one state.
+    pub states: usize,
+    /// `2 s` rows; one column, or one for each destination.
+    pub means: DMatrix<f64>,
+    /// `2 s` by `2 s`.
+    pub covariance: DMatrix<f64>,
+    /// `log p(y_2:k | y_1)`, one for each column.
+    pub log_evidence: Vec<f64>,
+}
+
+/// The time update of a filter: `x_k = F x_{k-1} + M + e`, `e ~ N(0, Q)`, with `M` one column or one for each destination.
+#[derive(Clone, Debug)]
+pub struct TimeUpdate<'a> {
+    /// `F`.
+    pub transition: &'a DMatrix<f64>,
+    /// `M`, with as many columns as the filter has, or one for all.
+    pub offsets: &'a DMatrix<f64>,
+    /// `Q`.
+    pub noise: &'a DMatrix<f64>,
+}
+
+impl Filter {
+    /// A filter at the first observation, whose posterior is `first`, with `columns` equal columns.
+    #[must_use]
+    pub fn new(first: &Gaussian, columns: usize) -> Self {
+        let s = first.mean.len();
+        let pair = DVector::from_fn(2 * s, |i, _| first.mean[i % s]);
+        Self {
+            states: s,
+            means: DMatrix::from_fn(2 * s, columns, |i, _| pair[i]),
+            covariance: DMatrix::from_fn(2 * s, 2 * s, |i, j| first.covariance[(i % s, j % s)]),
+            log_evidence: vec![0.0; columns],
+        }
+    }
+
+    /// The column that serves destination `i`.
+    #[must_use]
+    pub fn column(&self, i: usize) -> usize {
+        if self.means.ncols() == 1 { 0 } else { i }
+    }
+
+    /// The mean of the state now, for destination `i`.
+    #[must_use]
+    pub fn mean(&self, i: usize) -> DVector<f64> {
+        self.means.column(self.column(i)).rows(self.states, self.states).into_owned()
+    }
+
+    /// The covariance of the state now.
+    #[must_use]
+    pub fn current_covariance(&self) -> DMatrix<f64> {
+        self.covariance.view((self.states, self.states), (self.states, self.states)).into_owned()
+    }
+
+    /// The smoothed state at the first observation, `p(x_1 | y_1:k)`, for destination `i`.
+    #[must_use]
+    pub fn smoothed_start(&self, i: usize) -> Gaussian {
+        let s = self.states;
+        Gaussian {
+            mean: self.means.column(self.column(i)).rows(0, s).into_owned(),
+            covariance: self.covariance.view((0, 0), (s, s)).into_owned(),
+        }
+    }
+
+    /// `log p(y_2:k | y_1)` under destination `i`'s motion.
+    #[must_use]
+    pub fn evidence(&self, i: usize) -> f64 {
+        self.log_evidence[self.column(i)]
+    }
+
+    /// Liang (8): the prediction of the next state.
+    pub fn predict(&mut self, step: &TimeUpdate<'_>) {
+        let s = self.states;
+        let mut both = DMatrix::identity(2 * s, 2 * s);
+        both.view_mut((s, s), (s, s)).copy_from(step.transition);
+        let mut noise = DMatrix::zeros(2 * s, 2 * s);
+        noise.view_mut((s, s), (s, s)).copy_from(step.noise);
+        self.covariance = propagate(&both, &self.covariance, &noise);
+        let mut means = step.transition * self.means.rows(s, s);
+        let shared = step.offsets.ncols() == 1;
+        for (j, mut column) in means.column_iter_mut().enumerate() {
+            column += step.offsets.column(if shared { 0 } else { j });
+        }
+        self.means.rows_mut(s, s).copy_from(&means);
+    }
+
+    /// The Kalman correction with a measurement. Where its prediction error has no density (a singular covariance, which a
+    /// positive definite `V` excludes) the state stays and the answer is false.
+    pub fn correct(&mut self, measurement: &Measurement) -> bool {
+        let (s, m) = (self.states, measurement.value.len());
+        if m == 0 {
+            return true;
+        }
+        let mut matrix = DMatrix::zeros(m, 2 * s);
+        matrix.columns_mut(s, s).copy_from(&measurement.matrix);
+        let Some(conditioning) = condition(&self.covariance, &matrix, &measurement.noise) else { return false };
+        let predicted = &matrix * &self.means;
+        for j in 0..self.means.ncols() {
+            let error = &measurement.value - predicted.column(j);
+            self.log_evidence[j] += conditioning.prediction_error.log_density(&error);
+            let correction = &conditioning.gain * &error;
+            let mut column = self.means.column_mut(j);
+            column += correction;
+        }
+        self.covariance = conditioning.covariance;
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::gaussian::Factor;
+    use nalgebra::{dmatrix, dvector};
+
+    /// A random walk observed three times, against the joint density of the observations written out by hand.
+    #[test]
+    fn evidence_is_the_batch_density_of_the_observations() {
+        let first = Gaussian { mean: dvector![0.5], covariance: dmatrix![2.0] };
+        let (q, v) = (0.7, 0.3);
+        let mut filter = Filter::new(&first, 1);
+        let (f, zero, noise) = (dmatrix![1.0], dmatrix![0.0], dmatrix![q]);
+        for y in [1.0, -0.4] {
+            filter.predict(&TimeUpdate { transition: &f, offsets: &zero, noise: &noise });
+            let value = dvector![y];
+            assert!(filter.correct(&Measurement { value, matrix: dmatrix![1.0], noise: dmatrix![v] }));
+        }
+        let joint = dmatrix![2.0 + q + v, 2.0 + q; 2.0 + q, 2.0 + 2.0 * q + v];
+        let expected = Factor::new(joint.clone()).unwrap().log_density(&dvector![0.5, -0.9]);
+        assert!((filter.log_evidence[0] - expected).abs() < 1e-14);
+        // the start given both: cov(x_1, y) = 2 for each
+        let weights = joint.try_inverse().unwrap() * dvector![2.0, 2.0];
+        let start = filter.smoothed_start(0);
+        assert!((start.mean[0] - (0.5 + weights.dot(&dvector![0.5, -0.9]))).abs() < 1e-14);
+        assert!((start.covariance[(0, 0)] - (2.0 - weights.dot(&dvector![2.0, 2.0]))).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,38 @@
+//! Sums of exponentials, in logs.
+
+/// `ln sum_i exp(v_i)`, shifted by the largest so that nothing overflows; minus infinity for nothing at all.
+///
+/// ```
+/// use whither::math::log_sum_exp::log_sum_exp;
+/// assert_eq!(log_sum_exp(&[-1e4, -1e4]), -1e4 + 2f64.ln());
+/// assert_eq!(log_sum_exp(&[f64::NEG_INFINITY]), f64::NEG_INFINITY);
+/// ```
+#[must_use]
+pub fn log_sum_exp(values: &[f64]) -> f64 {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if !largest.is_finite() {
+        return largest;
+    }
+    largest + values.iter().map(|v| (v - largest).exp()).sum::<f64>().ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_neither_overflows_nor_loses_the_small() {
+        // ln(1 + 2 + 3) and the same far out
+        let values = [0.0, 2f64.ln(), 3f64.ln()];
+        for shift in [0.0, -1e5, 1e5] {
+            let shifted: Vec<f64> = values.iter().map(|v| v + shift).collect();
+            assert!((log_sum_exp(&shifted) - shift - 6f64.ln()).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn what_has_no_weight_adds_nothing() {
+        assert_eq!(log_sum_exp(&[]), f64::NEG_INFINITY);
+        assert_eq!(log_sum_exp(&[f64::NEG_INFINITY, 1.5, f64::NEG_INFINITY]), 1.5);
+    }
+}

@@ -1,0 +1,408 @@
+//! Destinations, Liang (4): the endpoint `G~ x_T ~ N(a_i, S_i)`, a prior weight, and where wanted an arrival prior of its own.
+
+use super::arrival::Arrival;
+use super::observation::read_covariance;
+use crate::error::{Code, Error, Result};
+use crate::math::gaussian::Factor;
+use crate::value::{Node, Value, quote};
+use nalgebra::{DMatrix, DVector};
+
+/// More destinations than this are an error, so that no input can exhaust the memory.
+pub const MOST_DESTINATIONS: usize = 1_000_000;
+
+/// One nominal destination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Destination {
+    /// Its name, unique among the destinations.
+    pub id: String,
+    /// The endpoint's mean `a_i`: its first `l` components of the state.
+    pub mean: Vec<f64>,
+    /// Weight before any observation; only ratios matter.
+    pub prior: f64,
+    /// Everything that destinations may share.
+    pub kind: Kind,
+}
+
+/// What many destinations have in common: the endpoint's covariance, its size, the arrival prior.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    /// The endpoint's covariance `S_i`, `l` by `l`.
+    pub covariance: DMatrix<f64>,
+    /// The sides of the box, where it was given as `center` and `size`.
+    pub size: Option<Vec<f64>>,
+    /// The deviation of the velocity on arrival, where given.
+    pub end_velocity: Option<f64>,
+    /// The arrival prior of its own, where given.
+    pub arrival: Option<Arrival>,
+}
+
+const KEYS: [&str; 8] = ["id", "mean", "covariance", "center", "size", "endVelocity", "prior", "arrival"];
+
+impl Destination {
+    /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`, for a
+    /// motion model of `states` components in `dimensions` axes. A box's covariance is that of a uniform density over it,
+    /// `size^2 / 12` for each side.
+    ///
+    /// # Errors
+    /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
+    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
+        let fields = node.fields(&KEYS)?;
+        let id = fields.required("id")?.text()?.to_owned();
+        let prior = fields.optional("prior").map_or(Ok(1.0), |prior| prior.not_negative())?;
+        let arrival = fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?;
+        let Some(center) = fields.optional("center") else {
+            for key in ["size", "endVelocity"] {
+                if let Some(extra) = fields.optional(key) {
+                    return Err(extra.error(Code::UnknownKey, "belongs to center; beside mean there is covariance"));
+                }
+            }
+            let field = fields.required("mean")?;
+            let mean = field.vector(None)?;
+            if mean.len() < dimensions || mean.len() > states {
+                let must = format!("must have {dimensions} to {states} numbers, has {}", mean.len());
+                return Err(field.error(Code::WrongLength, &must));
+            }
+            let covariance = read_covariance(&fields.required("covariance")?, mean.len())?;
+            return Ok(Self { id, mean, prior, kind: Kind { covariance, size: None, end_velocity: None, arrival } });
+        };
+        for key in ["mean", "covariance"] {
+            if let Some(extra) = fields.optional(key) {
+                return Err(extra.error(Code::UnknownKey, "has no place beside center and size"));
+            }
+        }
+        let mut mean = center.vector(Some(dimensions))?;
+        let size = fields.required("size")?.for_each_axis(dimensions, |n| n.positive())?;
+        let mut variances: Vec<f64> = size.iter().map(|side| side * side / 12.0).collect();
+        let end_velocity = fields.optional("endVelocity");
+        if let Some(field) = &end_velocity {
+            if states < 2 * dimensions {
+                return Err(field.error(Code::OutOfRange, "the motion model has no velocity"));
+            }
+            let deviation = field.positive()?;
+            variances.extend(vec![deviation * deviation; dimensions]);
+            mean.extend(vec![0.0; dimensions]);
+        }
+        let end_velocity = end_velocity.map(|field| field.number()).transpose()?;
+        let covariance = DMatrix::from_diagonal(&DVector::from_vec(variances));
+        if Factor::new(covariance.clone()).is_none() {
+            return Err(node.error(Code::OutOfRange, "size and endVelocity must have finite squares above 0"));
+        }
+        Ok(Self { id, mean, prior, kind: Kind { covariance, size: Some(size), end_velocity, arrival } })
+    }
+
+    /// The scenario's own form.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        let mut entries = vec![("id".to_owned(), Value::text(&self.id))];
+        let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
+        if let Some(size) = &self.kind.size {
+            put("center", Value::numbers(&self.mean[..size.len()]));
+            put("size", Value::numbers(size));
+            if let Some(deviation) = self.kind.end_velocity {
+                put("endVelocity", Value::Number(deviation));
+            }
+        } else {
+            put("mean", Value::numbers(&self.mean));
+            let rows = self.kind.covariance.row_iter().map(|row| Value::numbers(row.iter()));
+            put("covariance", Value::List(rows.collect()));
+        }
+        put("prior", Value::Number(self.prior));
+        if let Some(arrival) = &self.kind.arrival {
+            put("arrival", arrival.to_value());
+        }
+        Value::Map(entries)
+    }
+}
+
+impl Kind {
+    /// The extent that Fitts's law takes for the target's width: its smallest side, or the side of the uniform density
+    /// whose variance is the endpoint's smallest in position.
+    #[must_use]
+    pub fn extent(&self, dimensions: usize) -> f64 {
+        match &self.size {
+            Some(size) => size.iter().copied().fold(f64::INFINITY, f64::min),
+            None => {
+                let smallest = (0..dimensions).map(|i| self.covariance[(i, i)]).fold(f64::INFINITY, f64::min);
+                (12.0 * smallest).sqrt()
+            }
+        }
+    }
+}
+
+/// The destinations of a predictor, in order, as flat arrays; what they share is kept once for each kind.
+#[derive(Clone, Debug)]
+pub struct Destinations {
+    dimensions: usize,
+    states: usize,
+    ids: Vec<Box<str>>,
+    /// Positions in `ids`, sorted by id.
+    by_id: Vec<u32>,
+    /// `states` numbers for each destination; those after the first `l` are zero.
+    means: Vec<f64>,
+    priors: Vec<f64>,
+    kind_of: Vec<u32>,
+    kinds: Vec<Kind>,
+}
+
+impl Destinations {
+    /// Reads a list of destinations for a motion model of `states` components in `dimensions` axes.
+    ///
+    /// # Errors
+    /// As [`Destination::read`]; `no-destinations`, `duplicate-id`, `too-large`, and `out-of-range` where every prior is zero.
+    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
+        let items = node.items()?;
+        let count = items.len();
+        if count == 0 {
+            return Err(Error::new(Code::NoDestinations, node.path(), "must have at least one destination, has none"));
+        }
+        if count > MOST_DESTINATIONS {
+            let message = format!("must have at most {MOST_DESTINATIONS} destinations, has {count}");
+            return Err(Error::new(Code::TooLarge, node.path(), message));
+        }
+        let mut all = Self {
+            dimensions,
+            states,
+            ids: Vec::with_capacity(count),
+            by_id: Vec::new(),
+            means: Vec::with_capacity(count * states),
+            priors: Vec::with_capacity(count),
+            kind_of: Vec::with_capacity(count),
+            kinds: Vec::new(),
+        };
+        let mut known = std::collections::HashMap::new();
+        for item in items {
+            let destination = Destination::read(&item, dimensions, states)?;
+            let kind = *known.entry(fingerprint(&destination.kind)).or_insert_with(|| {
+                all.kinds.push(destination.kind.clone());
+                all.kinds.len() as u32 - 1
+            });
+            all.push(&destination, kind);
+        }
+        let mut by_id: Vec<u32> = (0..count as u32).collect();
+        by_id.sort_unstable_by(|&a, &b| all.ids[a as usize].cmp(&all.ids[b as usize]).then(a.cmp(&b)));
+        for pair in by_id.windows(2) {
+            let (first, second) = (pair[0] as usize, pair[1] as usize);
+            if all.ids[first] == all.ids[second] {
+                let path = format!("{}[{second}].id", node.path());
+                return Err(duplicate(path, &all.ids[first], first));
+            }
+        }
+        all.by_id = by_id;
+        all.check_priors(&node.path())?;
+        Ok(all)
+    }
+
+    fn push(&mut self, destination: &Destination, kind: u32) {
+        self.ids.push(destination.id.as_str().into());
+        self.means.extend(&destination.mean);
+        self.means.resize(self.ids.len() * self.states, 0.0);
+        self.priors.push(destination.prior);
+        self.kind_of.push(kind);
+    }
+
+    fn check_priors(&self, path: &str) -> Result<()> {
+        let total: f64 = self.priors.iter().sum();
+        if total > 0.0 && total.is_finite() {
+            return Ok(());
+        }
+        Err(Error::new(Code::OutOfRange, path, format!("the priors must have a finite sum above 0, it is {total}")))
+    }
+
+    /// How many there are; at least one.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Never true: a predictor keeps at least one destination.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// Spatial dimensions `d`.
+    #[must_use]
+    pub const fn dimensions(&self) -> usize {
+        self.dimensions
+    }
+
+    /// The ids, in order.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.ids.iter().map(AsRef::as_ref)
+    }
+
+    /// The id of destination `i`.
+    #[must_use]
+    pub fn id(&self, i: usize) -> &str {
+        &self.ids[i]
+    }
+
+    /// The place of a destination in the order.
+    #[must_use]
+    pub fn find(&self, id: &str) -> Option<usize> {
+        self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(id)).ok().map(|place| self.by_id[place] as usize)
+    }
+
+    /// The place of a destination in the order.
+    ///
+    /// # Errors
+    /// `unknown-id`.
+    pub fn index_of(&self, id: &str) -> Result<usize> {
+        self.find(id).ok_or_else(|| {
+            let shown: Vec<String> = self.ids.iter().take(5).map(|id| quote(id)).collect();
+            let more = if self.len() > 5 { ", ..." } else { "" };
+            let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
+            Error::new(Code::UnknownId, "id", message)
+        })
+    }
+
+    /// The endpoint's mean `a_i`, of length `l`.
+    #[must_use]
+    pub fn mean(&self, i: usize) -> &[f64] {
+        let length = self.kind(i).covariance.nrows();
+        &self.means[i * self.states..i * self.states + length]
+    }
+
+    /// The centre, the first `d` components of the endpoint's mean.
+    #[must_use]
+    pub fn center(&self, i: usize) -> &[f64] {
+        &self.means[i * self.states..i * self.states + self.dimensions]
+    }
+
+    /// The prior weights, not normalised.
+    #[must_use]
+    pub fn priors(&self) -> &[f64] {
+        &self.priors
+    }
+
+    /// What destination `i` shares with others.
+    #[must_use]
+    pub fn kind(&self, i: usize) -> &Kind {
+        &self.kinds[self.kind_of[i] as usize]
+    }
+
+    /// Which kind each destination is of.
+    #[must_use]
+    pub fn kind_of(&self) -> &[u32] {
+        &self.kind_of
+    }
+
+    /// The kinds; some may have no destination left.
+    #[must_use]
+    pub fn kinds(&self) -> &[Kind] {
+        &self.kinds
+    }
+
+    /// Destination `i` in full.
+    #[must_use]
+    pub fn get(&self, i: usize) -> Destination {
+        Destination {
+            id: self.ids[i].to_string(),
+            mean: self.mean(i).to_vec(),
+            prior: self.priors[i],
+            kind: self.kind(i).clone(),
+        }
+    }
+
+    /// The scenario's own form.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        Value::List((0..self.len()).map(|i| self.get(i).to_value()).collect())
+    }
+
+    /// Adds a destination at the end.
+    ///
+    /// # Errors
+    /// `duplicate-id`, `too-large`.
+    pub fn add(&mut self, destination: &Destination) -> Result<()> {
+        let place = match self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(destination.id.as_str())) {
+            Ok(place) => return Err(duplicate("id".to_owned(), &destination.id, self.by_id[place] as usize)),
+            Err(place) => place,
+        };
+        if self.len() >= MOST_DESTINATIONS {
+            let message = format!("must have at most {MOST_DESTINATIONS} destinations");
+            return Err(Error::new(Code::TooLarge, "destinations", message));
+        }
+        self.by_id.insert(place, self.ids.len() as u32);
+        let kind = self.place_kind(&destination.kind);
+        self.push(destination, kind);
+        Ok(())
+    }
+
+    /// Puts another destination in the place of `i`, under the same id.
+    ///
+    /// # Errors
+    /// `out-of-range` where no prior would be left above zero; nothing has changed then.
+    pub fn update(&mut self, i: usize, destination: &Destination) -> Result<()> {
+        let prior = std::mem::replace(&mut self.priors[i], destination.prior);
+        if let Err(error) = self.check_priors("prior") {
+            self.priors[i] = prior;
+            return Err(error);
+        }
+        let row = &mut self.means[i * self.states..(i + 1) * self.states];
+        row.fill(0.0);
+        row[..destination.mean.len()].copy_from_slice(&destination.mean);
+        if *self.kind(i) != destination.kind {
+            self.kind_of[i] = u32::MAX;
+            self.kind_of[i] = self.place_kind(&destination.kind);
+        }
+        Ok(())
+    }
+
+    /// Takes destination `i` out; those after it move up.
+    ///
+    /// # Errors
+    /// `no-destinations` where it is the last one, `out-of-range` where no prior would be left above zero.
+    pub fn remove(&mut self, i: usize) -> Result<()> {
+        if self.len() == 1 {
+            return Err(Error::new(Code::NoDestinations, "id", "the last destination cannot be removed"));
+        }
+        let prior = std::mem::replace(&mut self.priors[i], 0.0);
+        if let Err(error) = self.check_priors("destinations") {
+            self.priors[i] = prior;
+            return Err(error);
+        }
+        self.ids.remove(i);
+        self.priors.remove(i);
+        self.kind_of.remove(i);
+        self.means.drain(i * self.states..(i + 1) * self.states);
+        self.by_id.retain(|&j| j as usize != i);
+        for j in &mut self.by_id {
+            *j -= u32::from(*j as usize > i);
+        }
+        Ok(())
+    }
+
+    /// The number of an equal kind, or of a free place for a new one.
+    fn place_kind(&mut self, kind: &Kind) -> u32 {
+        if let Some(found) = self.kinds.iter().position(|known| known == kind) {
+            return found as u32;
+        }
+        let mut used = vec![false; self.kinds.len()];
+        for &k in self.kind_of.iter().filter(|&&k| k != u32::MAX) {
+            used[k as usize] = true;
+        }
+        if let Some(free) = used.iter().position(|used| !used) {
+            self.kinds[free] = kind.clone();
+            return free as u32;
+        }
+        self.kinds.push(kind.clone());
+        self.kinds.len() as u32 - 1
+    }
+}
+
+fn duplicate(path: String, id: &str, first: usize) -> Error {
+    Error::new(Code::DuplicateId, path, format!("the id {} is taken by destinations[{first}]", quote(id)))
+}
+
+/// Equal kinds have equal fingerprints, and only they: all their numbers, bit by bit.
+fn fingerprint(kind: &Kind) -> Vec<u64> {
+    let mut bits: Vec<u64> = kind.covariance.iter().map(|x| x.to_bits()).collect();
+    bits.push(kind.size.as_ref().map_or(0, |size| size.len() as u64 + 1));
+    bits.extend(kind.size.iter().flatten().map(|x| x.to_bits()));
+    bits.push(kind.end_velocity.map_or(u64::MAX, f64::to_bits));
+    if let Some(arrival) = &kind.arrival {
+        arrival.to_value().bits(&mut bits);
+    }
+    bits
+}

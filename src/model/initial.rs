@@ -1,0 +1,127 @@
+//! The density of the state at the first observation, before that observation.
+
+use super::observation::{ObservationModel, read_covariance};
+use crate::error::{Code, Error, Result};
+use crate::math::gaussian::{Gaussian, condition};
+use crate::math::kalman::Measurement;
+use crate::value::{Node, Value};
+use nalgebra::{DMatrix, DVector};
+
+/// What is known of `x_1` before `y_1`.
+#[derive(Clone, Debug)]
+pub struct Initial {
+    prior: Prior,
+    value: Value,
+}
+
+#[derive(Clone, Debug)]
+enum Prior {
+    /// Any Gaussian.
+    Given(Gaussian),
+    /// Flat in position; the other components have zero mean and these deviations.
+    Flat(Vec<f64>),
+}
+
+impl Initial {
+    /// Reads `{ mean, covariance }`, or `{ velocity?, acceleration? }` for a density that is flat in position. A deviation
+    /// that is left out is taken from `defaults`, one for each component after the position; where that is zero too it is
+    /// missing.
+    ///
+    /// # Errors
+    /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
+    pub fn read(node: Option<Node<'_>>, dimensions: usize, states: usize, defaults: &[f64]) -> Result<Self> {
+        let Some(node) = node else {
+            check(defaults, "initial")?;
+            return Ok(Self { prior: Prior::Flat(defaults.to_vec()), value: Value::Null });
+        };
+        let fields = node.fields(&["mean", "covariance", "velocity", "acceleration"])?;
+        if fields.optional("mean").is_some() || fields.optional("covariance").is_some() {
+            for key in ["velocity", "acceleration"] {
+                if let Some(extra) = fields.optional(key) {
+                    return Err(extra.error(Code::UnknownKey, "has no place beside mean and covariance"));
+                }
+            }
+            let mean = DVector::from_vec(fields.required("mean")?.vector(Some(states))?);
+            let covariance = read_covariance(&fields.required("covariance")?, states)?;
+            return Ok(Self { prior: Prior::Given(Gaussian { mean, covariance }), value: node.value().clone() });
+        }
+        let mut deviations = defaults.to_vec();
+        for (order, key) in [(1, "velocity"), (2, "acceleration")] {
+            let Some(field) = fields.optional(key) else { continue };
+            if states < (order + 1) * dimensions {
+                return Err(field.error(Code::OutOfRange, &format!("the motion model has no {key}")));
+            }
+            let values = field.for_each_axis(dimensions, |n| n.positive())?;
+            deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
+        }
+        check(&deviations, &node.path())?;
+        Ok(Self { prior: Prior::Flat(deviations), value: node.value().clone() })
+    }
+
+    /// The scenario's own form.
+    #[must_use]
+    pub const fn to_value(&self) -> &Value {
+        &self.value
+    }
+
+    /// Whether nothing is known of the position before the first observation.
+    #[must_use]
+    pub const fn is_flat(&self) -> bool {
+        matches!(self.prior, Prior::Flat(_))
+    }
+
+    /// The deviations of the components after the position, where the density is flat in position.
+    #[must_use]
+    pub fn flat_deviations(&self) -> Option<&[f64]> {
+        match &self.prior {
+            Prior::Flat(deviations) => Some(deviations),
+            Prior::Given(_) => None,
+        }
+    }
+
+    /// `p(x_1 | y_1)`.
+    ///
+    /// # Errors
+    /// `missing-key` where an axis is missing that only the first observation could tell.
+    pub fn posterior(&self, model: &ObservationModel, first: &Measurement) -> Result<Gaussian> {
+        match &self.prior {
+            Prior::Given(prior) => {
+                if first.value.is_empty() {
+                    return Ok(prior.clone());
+                }
+                let error = &first.value - &first.matrix * &prior.mean;
+                let conditioning = condition(&prior.covariance, &first.matrix, &first.noise).ok_or_else(|| {
+                    Error::new(Code::NotPositiveDefinite, "noise", "the first observation has no density")
+                })?;
+                Ok(Gaussian { mean: &prior.mean + conditioning.gain * error, covariance: conditioning.covariance })
+            }
+            Prior::Flat(deviations) => {
+                let (axes, states) = (model.axes(), first.matrix.ncols());
+                if first.value.len() < axes {
+                    return Err(Error::new(
+                        Code::MissingKey,
+                        "position",
+                        format!("the first observation must have all {axes} axes: initial is flat in position"),
+                    ));
+                }
+                let mut mean = DVector::zeros(states);
+                mean.rows_mut(0, axes).copy_from(&first.value);
+                let mut covariance = DMatrix::zeros(states, states);
+                covariance.view_mut((0, 0), (axes, axes)).copy_from(&first.noise);
+                for (i, deviation) in deviations.iter().enumerate() {
+                    covariance[(axes + i, axes + i)] = deviation * deviation;
+                }
+                Ok(Gaussian { mean, covariance })
+            }
+        }
+    }
+}
+
+fn check(deviations: &[f64], path: &str) -> Result<()> {
+    if deviations.iter().all(|x| x.is_finite() && *x > 0.0) {
+        return Ok(());
+    }
+    let message =
+        "missing mean and covariance: not every component after the position has noise to take a deviation from";
+    Err(Error::new(Code::MissingKey, path, message))
+}

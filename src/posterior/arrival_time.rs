@@ -1,0 +1,101 @@
+//! The posterior of the arrival time, `p(T_n | y_1:k)`, mixed over the destinations or for one of them.
+
+use super::Posterior;
+use crate::likelihood::candidates::Movement;
+
+/// Arrival times and their probabilities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// The nodes, ascending.
+    pub times: Vec<f64>,
+    /// Their probabilities; they sum to one.
+    pub probabilities: Vec<f64>,
+    /// The mean arrival time.
+    pub mean: f64,
+    /// Its standard deviation.
+    pub deviation: f64,
+}
+
+impl Arrival {
+    /// The arrival for nodes that may repeat and be in any order; `weights` need not sum to one.
+    #[must_use]
+    pub fn from_nodes(mut nodes: Vec<(f64, f64)>) -> Self {
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        nodes.dedup_by(|later, earlier| {
+            let same = later.0 == earlier.0;
+            if same {
+                earlier.1 += later.1;
+            }
+            same
+        });
+        let total: f64 = nodes.iter().map(|(_, weight)| weight).sum();
+        let (times, mut probabilities): (Vec<f64>, Vec<f64>) = nodes.into_iter().unzip();
+        if total > 0.0 {
+            probabilities.iter_mut().for_each(|p| *p /= total);
+        }
+        let mean: f64 = times.iter().zip(&probabilities).map(|(t, p)| t * p).sum();
+        let variance: f64 = times.iter().zip(&probabilities).map(|(t, p)| (t - mean) * (t - mean) * p).sum();
+        Self { times, probabilities, mean, deviation: variance.max(0.0).sqrt() }
+    }
+
+    /// The time below which the share `level` of the probability lies, between nodes linear in the middle of their shares.
+    #[must_use]
+    pub fn quantile(&self, level: f64) -> f64 {
+        let (mut below, mut last) = (0.0, None);
+        for (&time, &p) in self.times.iter().zip(&self.probabilities).filter(|(_, p)| **p > 0.0) {
+            let middle = below + 0.5 * p;
+            if level <= middle {
+                return match last {
+                    Some((from, start)) => start + (time - start) * (level - from) / (middle - from),
+                    None => time,
+                };
+            }
+            last = Some((middle, time));
+            below += p;
+        }
+        last.map_or(self.mean, |(_, time)| time)
+    }
+}
+
+impl Posterior {
+    /// `p(T_n | y_1:k)` for the destinations `which`, each by its share, in seconds since the first observation.
+    #[must_use]
+    pub fn arrival(&self, movement: &Movement, which: impl Iterator<Item = usize>, alone: bool) -> Arrival {
+        let mut nodes = Vec::new();
+        for i in which {
+            let share = if alone { 1.0 } else { self.share(i) };
+            if share == 0.0 {
+                continue;
+            }
+            let grid = movement.plan.grid_of[i] as usize;
+            let times = &movement.plan.grids[grid].times;
+            for (n, weight) in self.nodes_of(movement, i).into_iter().enumerate() {
+                let time = movement.plan.since_first(grid, times[n % times.len()], movement.elapsed);
+                nodes.push((time, share * weight));
+            }
+        }
+        Arrival::from_nodes(nodes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_at_one_time_are_one_node() {
+        let arrival = Arrival::from_nodes(vec![(3.0, 1.0), (1.0, 1.0), (3.0, 2.0)]);
+        assert_eq!(arrival.times, [1.0, 3.0]);
+        assert_eq!(arrival.probabilities, [0.25, 0.75]);
+        assert_eq!(arrival.mean, 2.5);
+        assert!((arrival.deviation - 0.75f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn quantiles_run_from_node_to_node() {
+        let arrival = Arrival::from_nodes(vec![(1.0, 1.0), (2.0, 1.0), (4.0, 2.0)]);
+        assert_eq!(arrival.quantile(0.05), 1.0);
+        assert_eq!(arrival.quantile(0.25), 1.5);
+        assert_eq!(arrival.quantile(0.99), 4.0);
+    }
+}

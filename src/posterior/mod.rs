@@ -1,0 +1,102 @@
+//! Liang (3): the posterior over destinations, and "none of them".
+
+pub mod arrival_time;
+pub mod state;
+
+use crate::likelihood::candidates::Movement;
+use crate::math::log_sum_exp::log_sum_exp;
+use crate::model::destination::Destinations;
+
+/// What is believed after an observation.
+#[derive(Clone, Debug, Default)]
+pub struct Posterior {
+    /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as the plan's rows.
+    pub joint: Vec<Vec<f64>>,
+    /// `log p(y_2:k | y_1, D_i)`, marginalised over arrival time and noise.
+    pub log_likelihoods: Vec<f64>,
+    /// `p(D_i | y_1:k)`; they sum to `1 - none`.
+    pub probabilities: Vec<f64>,
+    /// `p(none of them | y_1:k)`.
+    pub none: f64,
+}
+
+impl Posterior {
+    /// Before the first observation: the priors, with `none` for none of them.
+    pub fn set_to_prior(&mut self, destinations: &Destinations, none: f64) {
+        self.joint.clear();
+        self.log_likelihoods.clear();
+        self.log_likelihoods.resize(destinations.len(), 0.0);
+        let total: f64 = destinations.priors().iter().sum();
+        self.probabilities.clear();
+        self.probabilities.extend(destinations.priors().iter().map(|prior| (1.0 - none) * prior / total));
+        self.none = none;
+    }
+
+    /// Liang (3) and (6) for a movement so far. Where every likelihood is zero to the last bit of its logarithm, the
+    /// probabilities stay as they were.
+    pub fn update(&mut self, movement: &Movement, destinations: &Destinations, none: f64) {
+        movement.joint(destinations, &mut self.joint);
+        let plan = &movement.plan;
+        let mut terms = Vec::new();
+        self.log_likelihoods.clear();
+        for i in 0..destinations.len() {
+            terms.clear();
+            for table in &self.joint {
+                terms.extend_from_slice(&table[plan.rows[i]..plan.rows[i + 1]]);
+            }
+            self.log_likelihoods.push(log_sum_exp(&terms));
+        }
+        let priors = destinations.priors();
+        let total: f64 = priors.iter().sum();
+        let weigh = |(l, prior): (&f64, &f64)| l + ((1.0 - none) * prior / total).ln();
+        let weighed: Vec<f64> = self.log_likelihoods.iter().zip(priors).map(weigh).collect();
+        let log_none = if none > 0.0 { movement.log_evidence_of_none(priors) + none.ln() } else { f64::NEG_INFINITY };
+        let top = weighed.iter().copied().fold(log_none, f64::max);
+        if !top.is_finite() {
+            if self.probabilities.len() != destinations.len() {
+                let joint = std::mem::take(&mut self.joint);
+                self.set_to_prior(destinations, none);
+                self.joint = joint;
+            }
+            return;
+        }
+        self.probabilities.clear();
+        self.probabilities.extend(weighed.iter().map(|l| (l - top).exp()));
+        self.none = (log_none - top).exp();
+        let sum = self.probabilities.iter().sum::<f64>() + self.none;
+        self.probabilities.iter_mut().for_each(|p| *p /= sum);
+        self.none /= sum;
+    }
+
+    /// The index of the most probable destination, the first of equals.
+    #[must_use]
+    pub fn best(&self) -> usize {
+        let mut best = 0;
+        for (i, &p) in self.probabilities.iter().enumerate() {
+            if p > self.probabilities[best] {
+                best = i;
+            }
+        }
+        best
+    }
+
+    /// `p(T_n, c | D_i, y_1:k)` for each noise candidate and node of destination `i`, candidates after one another; all
+    /// zero where the destination cannot be reached any more.
+    #[must_use]
+    pub fn nodes_of(&self, movement: &Movement, i: usize) -> Vec<f64> {
+        let (from, to) = (movement.plan.rows[i], movement.plan.rows[i + 1]);
+        let terms: Vec<f64> = self.joint.iter().flat_map(|table| table[from..to].iter().copied()).collect();
+        let total = log_sum_exp(&terms);
+        if !total.is_finite() {
+            return vec![0.0; terms.len()];
+        }
+        terms.iter().map(|term| (term - total).exp()).collect()
+    }
+
+    /// The probability of destination `i` given that it is one of them.
+    #[must_use]
+    pub fn share(&self, i: usize) -> f64 {
+        let sum: f64 = self.probabilities.iter().sum();
+        if sum > 0.0 { self.probabilities[i] / sum } else { 0.0 }
+    }
+}

@@ -1,0 +1,452 @@
+//! The predictor: observations in, beliefs out.
+
+use crate::error::{Code, Error, Result};
+use crate::likelihood::candidates::Movement;
+use crate::likelihood::plan::Plan;
+use crate::math::gaussian::Gaussian;
+use crate::model::destination::{Destination, Destinations};
+use crate::posterior::Posterior;
+use crate::posterior::arrival_time::Arrival;
+use crate::scenario::Scenario;
+use crate::value::{Node, Value, number};
+use std::sync::Arc;
+
+/// The most probable destination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Best {
+    /// Its place in the order of the destinations.
+    pub index: usize,
+    /// Its id.
+    pub id: String,
+    /// Its probability.
+    pub probability: f64,
+}
+
+/// The time that is left, in seconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remaining {
+    /// The expected time to go.
+    pub mean: f64,
+    /// One in ten movements takes less.
+    pub low: f64,
+    /// One in ten movements takes more.
+    pub high: f64,
+}
+
+/// Predicts where one moving thing is going.
+///
+/// ```
+/// use whither::{Predictor, Scenario};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 3000 },
+///     "observation": { "noise": 1.5 },
+///     "arrival": { "type": "horizon", "from": 0.05, "to": 0.5 },
+///     "destinations": [
+///         { "id": "left", "center": [0, 200], "size": [80, 80] },
+///         { "id": "right", "center": [600, 200], "size": [80, 80] }
+///     ]
+/// }"#).unwrap();
+/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// for k in 0..10 {
+///     let t = 0.016 * f64::from(k);
+///     predictor.observe(t, &[300.0 + 900.0 * t, 200.0]).unwrap();
+/// }
+/// let best = predictor.best().unwrap();
+/// assert_eq!(best.id, "right");
+/// assert!(best.probability > 0.9);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Predictor {
+    pub(crate) scenario: Arc<Scenario>,
+    pub(crate) destinations: Arc<Destinations>,
+    pub(crate) track: Option<Track>,
+    posterior: Posterior,
+    stale: bool,
+}
+
+/// The movement that is going on.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    /// `t_1` on the caller's clock.
+    pub first_time: f64,
+    /// `t_k` on the caller's clock.
+    pub time: f64,
+    /// The first position, or the prior's where it was not observed.
+    pub start: Vec<f64>,
+    pub movement: Movement,
+    /// The movement before every node had passed: what the probabilities stay at.
+    pub frozen: Option<Box<Movement>>,
+}
+
+impl Track {
+    /// The movement that the probabilities are about.
+    pub fn believed(&self) -> &Movement {
+        self.frozen.as_deref().unwrap_or(&self.movement)
+    }
+}
+
+impl Predictor {
+    /// A predictor that has seen nothing yet.
+    ///
+    /// # Errors
+    /// None for a scenario that was read; the signature leaves room for limits of the machine.
+    pub fn new(scenario: &Scenario) -> Result<Self> {
+        Ok(Self::with_track(Arc::new(scenario.clone()), Arc::new(scenario.destinations.clone()), None))
+    }
+
+    pub(crate) fn with_track(scenario: Arc<Scenario>, destinations: Arc<Destinations>, track: Option<Track>) -> Self {
+        let mut predictor = Self { scenario, destinations, track, posterior: Posterior::default(), stale: true };
+        predictor.posterior.set_to_prior(&predictor.destinations, predictor.scenario.none);
+        predictor
+    }
+
+    /// Takes one observation in: `time` in seconds on any clock, `position` with one number for each axis. The first one
+    /// begins the movement. An equal time is legal.
+    ///
+    /// # Errors
+    /// `time-not-increasing`, `wrong-length`, `not-finite`, `out-of-range`; nothing has changed then.
+    pub fn observe(&mut self, time: f64, position: &[f64]) -> Result<()> {
+        let position: Vec<Option<f64>> = position.iter().map(|&x| Some(x)).collect();
+        self.observe_with(time, &position, None)
+    }
+
+    /// As [`Predictor::observe`]; none marks a missing axis, and `noise` (a deviation, one for each axis, or a covariance)
+    /// replaces the scenario's for this observation.
+    ///
+    /// # Errors
+    /// As [`Predictor::observe`], and those of the scenario's `observation.noise`.
+    pub fn observe_with(&mut self, time: f64, position: &[Option<f64>], noise: Option<&Value>) -> Result<()> {
+        check_time("time", time)?;
+        let model = &self.scenario.observation;
+        let noise = noise.map(|noise| model.read_noise(&Node::root(noise, "noise"))).transpose()?;
+        let measurement = model.measurement(position, noise.as_ref())?;
+        let Some(track) = &mut self.track else {
+            let first = self.scenario.initial.posterior(model, &measurement)?;
+            let start = first.mean.as_slice()[..self.dimensions()].to_vec();
+            let plan = self.plan(&start);
+            let (motion, method) = (&self.scenario.motion, self.scenario.method);
+            let movement = Movement::begin(motion, method, &self.destinations, plan, first);
+            self.track = Some(Track { first_time: time, time, start, movement, frozen: None });
+            self.stale = true;
+            return Ok(());
+        };
+        if time < track.time {
+            let message =
+                format!("must be at least the last observation's, {}, got {}", number(track.time), number(time));
+            return Err(Error::new(Code::TimeNotIncreasing, "time", message));
+        }
+        let step = (time - track.first_time) - track.movement.elapsed;
+        if track.frozen.is_none() && !track.movement.plan.is_alive(track.movement.elapsed + step) {
+            if self.stale {
+                self.posterior.update(&track.movement, &self.destinations, self.scenario.none);
+                self.stale = false;
+            }
+            track.frozen = Some(Box::new(track.movement.clone()));
+        }
+        track.movement.advance(&self.destinations, step, &measurement);
+        track.time = time;
+        self.stale |= track.frozen.is_none();
+        Ok(())
+    }
+
+    fn plan(&self, start: &[f64]) -> Plan {
+        Plan::new(&self.destinations, &self.scenario.arrival, &self.scenario.quadrature, start)
+    }
+
+    fn refresh(&mut self) {
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
+        match &self.track {
+            Some(track) => self.posterior.update(track.believed(), &self.destinations, self.scenario.none),
+            None => self.posterior.set_to_prior(&self.destinations, self.scenario.none),
+        }
+    }
+
+    /// How many destinations there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.destinations.len()
+    }
+
+    /// Never true: the last destination cannot be removed.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.destinations.is_empty()
+    }
+
+    /// Spatial dimensions `d`.
+    #[must_use]
+    pub fn dimensions(&self) -> usize {
+        self.scenario.motion.dimensions()
+    }
+
+    /// Components `s` of the state: positions, then velocities, then accelerations.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.scenario.motion.states()
+    }
+
+    /// Components of one observation.
+    #[must_use]
+    pub fn axes(&self) -> usize {
+        self.scenario.observation.axes()
+    }
+
+    /// The scenario.
+    #[must_use]
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The ids of the destinations, in order.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.destinations.ids()
+    }
+
+    /// The place of a destination in the order.
+    ///
+    /// # Errors
+    /// `unknown-id`.
+    pub fn index_of(&self, id: &str) -> Result<usize> {
+        self.destinations.index_of(id)
+    }
+
+    /// `p(D_i | y_1:k)` for each destination, in order, Liang (3); they sum to `1 - none`. Before the first observation, and
+    /// after it alone, they are the priors.
+    pub fn probabilities(&mut self) -> &[f64] {
+        self.refresh();
+        &self.posterior.probabilities
+    }
+
+    /// The probability that the object is going to none of the destinations.
+    pub fn none(&mut self) -> f64 {
+        self.refresh();
+        self.posterior.none
+    }
+
+    /// The most probable destination; none before the first observation.
+    pub fn best(&mut self) -> Option<Best> {
+        self.track.as_ref()?;
+        self.refresh();
+        let index = self.posterior.best();
+        let probability = self.posterior.probabilities[index];
+        Some(Best { index, id: self.destinations.id(index).to_owned(), probability })
+    }
+
+    /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates.
+    pub fn log_likelihoods(&mut self) -> &[f64] {
+        self.refresh();
+        &self.posterior.log_likelihoods
+    }
+
+    /// Whether every arrival node has passed; the probabilities stay as they last were.
+    #[must_use]
+    pub fn expired(&self) -> bool {
+        self.track.as_ref().is_some_and(|track| track.frozen.is_some())
+    }
+
+    /// The posterior of the arrival time on the caller's clock, for one destination or mixed over all of them; none before
+    /// the first observation.
+    ///
+    /// # Errors
+    /// `unknown-id`.
+    pub fn arrival(&mut self, id: Option<&str>) -> Result<Option<Arrival>> {
+        let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
+        self.refresh();
+        let Some(track) = &self.track else { return Ok(None) };
+        let movement = track.believed();
+        let mut arrival = match only {
+            Some(i) => self.posterior.arrival(movement, i..=i, true),
+            None => self.posterior.arrival(movement, 0..self.destinations.len(), false),
+        };
+        arrival.times.iter_mut().for_each(|t| *t += track.first_time);
+        arrival.mean += track.first_time;
+        Ok(Some(arrival))
+    }
+
+    /// The time to go and its 80% interval, from the posterior of the arrival time; none before the second observation and
+    /// after every node has passed.
+    pub fn remaining(&mut self) -> Option<Remaining> {
+        self.refresh();
+        let track = self.track.as_ref()?;
+        if track.movement.observations < 2 || track.frozen.is_some() {
+            return None;
+        }
+        let arrival = self.posterior.arrival(&track.movement, 0..self.destinations.len(), false);
+        let elapsed = track.movement.elapsed;
+        Some(Remaining {
+            mean: arrival.mean - elapsed,
+            low: arrival.quantile(0.1) - elapsed,
+            high: arrival.quantile(0.9) - elapsed,
+        })
+    }
+
+    /// The state now, given that the object is going to one of the destinations; none before the first observation.
+    pub fn state(&mut self) -> Option<Gaussian> {
+        self.state_after(0.0, None)
+    }
+
+    /// The state at the first observation given all of them, `p(x_1 | y_1:k)`; none before the first observation.
+    pub fn initial_state(&mut self) -> Option<Gaussian> {
+        self.refresh();
+        let track = self.track.as_ref()?;
+        self.posterior.initial_state(track.believed(), &self.destinations)
+    }
+
+    /// The state at `time`, which is the last observation's or later; none before the first observation.
+    ///
+    /// # Errors
+    /// `not-finite`, `out-of-range`.
+    pub fn forecast(&mut self, time: f64) -> Result<Option<Gaussian>> {
+        let later = self.after_last("time", time)?;
+        Ok(later.and_then(|later| self.state_after(later, None)))
+    }
+
+    /// The expected positions on the way to one destination, `d` numbers for each of `times`, none of which may lie before
+    /// the last observation; empty before the first observation.
+    ///
+    /// # Errors
+    /// `unknown-id`, `not-finite`, `out-of-range`.
+    pub fn path(&mut self, id: &str, times: &[f64]) -> Result<Vec<f64>> {
+        let only = self.destinations.index_of(id)?;
+        let mut path = Vec::with_capacity(times.len() * self.dimensions());
+        for (i, &time) in times.iter().enumerate() {
+            let later = self.after_last(&format!("times[{i}]"), time)?;
+            let state =
+                later.and_then(|later| self.state_after(later, Some(only)).or_else(|| self.state_after(later, None)));
+            if let Some(state) = state {
+                path.extend(state.mean.iter().take(self.dimensions()));
+            }
+        }
+        Ok(path)
+    }
+
+    fn after_last(&self, path: &str, time: f64) -> Result<Option<f64>> {
+        check_time(path, time)?;
+        let Some(track) = &self.track else { return Ok(None) };
+        if time < track.time {
+            let last = number(track.time);
+            let message = format!("must be at least the last observation's time, {last}, got {}", number(time));
+            return Err(Error::new(Code::OutOfRange, path, message));
+        }
+        Ok(Some(time - track.time))
+    }
+
+    fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
+        self.refresh();
+        let track = self.track.as_ref()?;
+        self.posterior.state(track.believed(), &track.movement, &self.destinations, later, only)
+    }
+
+    fn read_destination(&self, value: &Value) -> Result<Destination> {
+        Destination::read(&Node::root(value, "destination"), self.dimensions(), self.states())
+    }
+
+    /// Adds a destination at the end, in mid-movement too.
+    ///
+    /// # Errors
+    /// Those of a scenario's destination; `duplicate-id`; `method-accumulates` in mid-movement where the method, or a motion
+    /// model that knows the destination, accumulates for each of them. Nothing has changed then.
+    pub fn add_destination(&mut self, destination: &Value) -> Result<()> {
+        let destination = self.read_destination(destination)?;
+        let mut changed = (*self.destinations).clone();
+        changed.add(&destination)?;
+        self.replace(changed)
+    }
+
+    /// Puts another destination in the place of `id`; it keeps the id, and `destination` may leave it out.
+    ///
+    /// # Errors
+    /// `unknown-id`, and as [`Predictor::add_destination`].
+    pub fn update_destination(&mut self, id: &str, destination: &Value) -> Result<()> {
+        let i = self.destinations.index_of(id)?;
+        let mut named = destination.clone();
+        if let Value::Map(entries) = &mut named {
+            match entries.iter().find(|(key, value)| key == "id" && *value != Value::Null) {
+                Some((_, given)) if *given != Value::text(id) => {
+                    let message = format!("must stay {}, got {}", Value::text(id).quoted(), given.quoted());
+                    return Err(Error::new(Code::OutOfRange, "destination.id", message));
+                }
+                Some(_) => {}
+                None => {
+                    entries.retain(|(key, _)| key != "id");
+                    entries.push(("id".to_owned(), Value::text(id)));
+                }
+            }
+        }
+        let destination = self.read_destination(&named)?;
+        let mut changed = (*self.destinations).clone();
+        changed.update(i, &destination)?;
+        self.replace(changed)
+    }
+
+    /// Takes a destination out.
+    ///
+    /// # Errors
+    /// `unknown-id`, `no-destinations` for the last one, and as [`Predictor::add_destination`].
+    pub fn remove_destination(&mut self, id: &str) -> Result<()> {
+        let i = self.destinations.index_of(id)?;
+        let mut changed = (*self.destinations).clone();
+        changed.remove(i)?;
+        self.replace(changed)
+    }
+
+    /// Sets all destinations at once, a scenario's list of them; ids that stay keep their state.
+    ///
+    /// # Errors
+    /// Those of a scenario's destinations, and as [`Predictor::add_destination`].
+    pub fn set_destinations(&mut self, destinations: &Value) -> Result<()> {
+        let node = Node::root(destinations, "destinations");
+        let changed = Destinations::read(&node, self.dimensions(), self.states())?;
+        self.replace(changed)
+    }
+
+    fn replace(&mut self, changed: Destinations) -> Result<()> {
+        self.scenario.check_arrivals(&changed)?;
+        let Some(track) = &self.track else {
+            self.destinations = Arc::new(changed);
+            self.stale = true;
+            return Ok(());
+        };
+        self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
+        let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
+        let plan = Plan::new(&changed, &self.scenario.arrival, &self.scenario.quadrature, &track.start);
+        self.destinations = Arc::new(changed);
+        if let Some(track) = &mut self.track {
+            if let Some(frozen) = &mut track.frozen {
+                frozen.replan(plan.clone(), origin.as_deref());
+            }
+            track.movement.replan(plan, origin.as_deref());
+        }
+        self.stale = true;
+        Ok(())
+    }
+
+    /// Which of the present destinations each of `changed` is: their motion, and so their evidence, must stay.
+    fn origins(&self, changed: &Destinations) -> Result<Vec<usize>> {
+        let find = |j: usize| {
+            let found =
+                self.destinations.find(changed.id(j)).filter(|&i| self.destinations.center(i) == changed.center(j));
+            found.ok_or_else(|| {
+                let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
+                               evidence accumulates for each of them";
+                Error::new(Code::MethodAccumulates, format!("destinations[{j}]"), message)
+            })
+        };
+        (0..changed.len()).map(find).collect()
+    }
+
+    /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.
+    pub fn reset(&mut self) {
+        self.track = None;
+        self.stale = true;
+    }
+}
+
+fn check_time(path: &str, time: f64) -> Result<()> {
+    if time.is_finite() {
+        return Ok(());
+    }
+    Err(Error::new(Code::NotFinite, path, format!("must be a finite number, got {}", number(time))))
+}

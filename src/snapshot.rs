@@ -1,0 +1,113 @@
+//! Snapshots: a predictor as plain data, versioned and sealed, from which what follows is identical to the bit.
+
+use crate::error::{Code, Error, Result};
+use crate::likelihood::candidates::Movement;
+use crate::likelihood::plan::Plan;
+use crate::predictor::{Predictor, Track};
+use crate::scenario::Scenario;
+use crate::value::{Node, Value, number};
+use std::sync::Arc;
+
+/// The form of a snapshot. It changes whenever an older reader could misunderstand a newer snapshot.
+pub const VERSION: f64 = 1.0;
+
+impl Predictor {
+    /// The predictor as plain data (JSON can carry it): the scenario with the destinations as they are now, and the movement.
+    ///
+    /// ```
+    /// # let scenario: whither::Scenario = serde_json::from_str(r#"{
+    /// #   "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 0.1 },
+    /// #   "arrival": { "type": "uniform", "from": 1, "to": 2 },
+    /// #   "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [5], "size": 1 }] }"#).unwrap();
+    /// let mut predictor = whither::Predictor::new(&scenario).unwrap();
+    /// predictor.observe(0.0, &[1.0]).unwrap();
+    /// let json = serde_json::to_string(&predictor.snapshot()).unwrap();
+    /// let mut restored = whither::Predictor::restore(&serde_json::from_str(&json).unwrap()).unwrap();
+    /// predictor.observe(0.5, &[2.0]).unwrap();
+    /// restored.observe(0.5, &[2.0]).unwrap();
+    /// assert_eq!(predictor.probabilities(), restored.probabilities());
+    /// ```
+    #[must_use]
+    pub fn snapshot(&self) -> Value {
+        let track = self.track.as_ref().map_or(Value::Null, |track| {
+            Value::map([
+                ("firstTime", Value::exact(track.first_time)),
+                ("time", Value::exact(track.time)),
+                ("start", Value::exact_numbers(&track.start)),
+                ("movement", track.movement.save()),
+                ("frozen", track.frozen.as_ref().map_or(Value::Null, |movement| movement.save())),
+            ])
+        });
+        let body = Value::map([("scenario", self.scenario.to_value_with(&self.destinations)), ("track", track)]);
+        let seal = seal(&body);
+        Value::map([
+            ("whither", Value::text("snapshot")),
+            ("version", Value::Number(VERSION)),
+            ("seal", seal),
+            ("body", body),
+        ])
+    }
+
+    /// The predictor that [`Predictor::snapshot`] wrote.
+    ///
+    /// # Errors
+    /// `bad-snapshot` where it is damaged, truncated, no snapshot at all, or from another version.
+    pub fn restore(snapshot: &Value) -> Result<Self> {
+        let node = Node::root(snapshot, "snapshot");
+        let bad = |path: String, message: String| Error::new(Code::BadSnapshot, path, message);
+        let kind = node.get("whither").map(|kind| kind.value().clone());
+        if kind != Some(Value::text("snapshot")) {
+            return Err(bad(
+                "snapshot".to_owned(),
+                format!("must be what snapshot() returned, got {}", snapshot.quoted()),
+            ));
+        }
+        match node.get("version").map(|version| version.value()) {
+            Some(Value::Number(version)) if *version == VERSION => {}
+            other => {
+                let found = other.map_or_else(|| "nothing".to_owned(), Value::quoted);
+                let message = format!("must be {}, the version that this build writes, got {found}", number(VERSION));
+                return Err(bad("snapshot.version".to_owned(), message));
+            }
+        }
+        let (Some(body), Some(given)) = (node.get("body"), node.get("seal")) else {
+            return Err(bad("snapshot".to_owned(), "is truncated: it has no body or no seal".to_owned()));
+        };
+        if seal(body.value()) != *given.value() {
+            return Err(bad("snapshot".to_owned(), "is damaged: its contents do not match its seal".to_owned()));
+        }
+        Self::read_body(&body).map_err(|error| bad(error.path().to_owned(), error.message().to_owned()))
+    }
+
+    fn read_body(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["scenario", "track"])?;
+        let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
+        let destinations = Arc::new(scenario.destinations.clone());
+        let Some(track) = fields.optional("track") else { return Ok(Self::with_track(scenario, destinations, None)) };
+        let fields = track.fields(&["firstTime", "time", "start", "movement", "frozen"])?;
+        let start = fields.required("start")?.exact_numbers(scenario.motion.dimensions())?;
+        let load = |node: &Node<'_>| {
+            let plan = Plan::new(&destinations, &scenario.arrival, &scenario.quadrature, &start);
+            Movement::load(node, &scenario.motion, scenario.method, &destinations, plan)
+        };
+        let track = Track {
+            first_time: fields.required("firstTime")?.exact()?,
+            time: fields.required("time")?.exact()?,
+            movement: load(&fields.required("movement")?)?,
+            frozen: fields.optional("frozen").map(|frozen| load(&frozen).map(Box::new)).transpose()?,
+            start,
+        };
+        Ok(Self::with_track(scenario, destinations, Some(track)))
+    }
+}
+
+/// A checksum over everything in a snapshot's body (FNV-1a over its words).
+fn seal(body: &Value) -> Value {
+    let mut words = Vec::new();
+    body.bits(&mut words);
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    for word in words {
+        hash = (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    Value::Text(format!("{hash:016x}"))
+}

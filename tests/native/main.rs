@@ -1,0 +1,5 @@
+//! Tests of the whole library, natively: golden cases, identities, errors, the life of a predictor.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod golden;
+mod support;
