@@ -1,0 +1,33 @@
+// Work that is done only when what it depends on has changed.
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { root } from "./run.mjs";
+
+/**
+ * Does `work` unless it was done before with the same `inputs` (files and folders, by their content) and its `outputs` are
+ * still there. Paths are relative to the repository.
+ */
+export async function incremental(name, { inputs, outputs }, work) {
+  const stamp = join(root, "target/stamps", name);
+  const now = contentHash(inputs);
+  const done = existsSync(stamp) && readFileSync(stamp, "utf8") === now;
+  if (done && outputs.every((output) => existsSync(join(root, output)))) return;
+  await work();
+  mkdirSync(join(stamp, ".."), { recursive: true });
+  writeFileSync(stamp, now);
+}
+
+function contentHash(inputs) {
+  const hash = createHash("sha256");
+  const add = (path) => {
+    const absolute = join(root, path);
+    if (statSync(absolute).isDirectory()) {
+      for (const entry of readdirSync(absolute).sort()) add(`${path}/${entry}`);
+    } else {
+      hash.update(`${path}\0`).update(readFileSync(absolute)).update("\0");
+    }
+  };
+  inputs.forEach(add);
+  return hash.digest("hex");
+}
