@@ -1,4 +1,4 @@
-//! `bridging`: the original bridging distributions (Liang's references [12]-[14]).
+//! `bridging`: the original bridging distributions (Liang's references 12 to 14).
 //!
 //! The endpoint `z = G~ x_T ~ N(a_i, S_i)` is independent of `x_1`, and the state moves towards it by the bridged
 //! transition of [`crate::model::bridge`]. For each destination and arrival time one Kalman filter runs on `[x_k; z]`; its
