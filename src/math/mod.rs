@@ -2,5 +2,6 @@
 
 pub mod gaussian;
 pub mod kalman;
+pub mod lanes;
 pub mod log_sum_exp;
 pub mod quadrature;
