@@ -1,5 +1,6 @@
 //! Quadrature over an interval: nodes and weights that sum to one.
 
+use super::random::Random;
 use crate::error::{Code, Result};
 use crate::value::{Node, Value};
 
@@ -27,6 +28,18 @@ pub enum Quadrature {
         /// How many nodes.
         points: usize,
     },
+    /// Gauss and Legendre's rule; at least 1. The ends of the interval are no nodes.
+    GaussLegendre {
+        /// How many nodes.
+        points: usize,
+    },
+    /// Random nodes of equal weight; at least 1. A seed gives the same nodes on every platform.
+    MonteCarlo {
+        /// How many nodes.
+        points: usize,
+        /// What the random numbers follow from.
+        seed: u32,
+    },
 }
 
 /// Nodes in `[0, 1]` and weights that sum to one.
@@ -49,22 +62,35 @@ impl Default for Quadrature {
 enum Kind {
     Simpson,
     Trapezoid,
+    GaussLegendre,
+    MonteCarlo,
 }
 
-const KINDS: [(&str, Kind); 2] = [("simpson", Kind::Simpson), ("trapezoid", Kind::Trapezoid)];
+const KINDS: [(&str, Kind); 4] = [
+    ("simpson", Kind::Simpson),
+    ("trapezoid", Kind::Trapezoid),
+    ("gaussLegendre", Kind::GaussLegendre),
+    ("monteCarlo", Kind::MonteCarlo),
+];
+
+/// How many deviations the normal density is integrated over to either side; 6e-5 of it lies beyond.
+const NORMAL_RANGE: f64 = 4.0;
 
 impl Quadrature {
-    /// Reads `{ "rule"?, "points"? }`.
+    /// Reads `{ "rule"?, "points"?, "seed"? }`, `seed` for `monteCarlo` alone.
     ///
     /// # Errors
     /// `unknown-key`, `wrong-type`, `not-finite`, `out-of-range` (Simpson's rule with an even count among them),
     /// `too-large`.
     pub fn read(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["rule", "points"])?;
-        let kind = match fields.optional("rule") {
+        let kind = match node.get("rule") {
             Some(node) => node.word(&KINDS)?,
             None => Kind::Simpson,
         };
+        let fields = node.fields(match kind {
+            Kind::MonteCarlo => &["rule", "points", "seed"],
+            _ => &["rule", "points"],
+        })?;
         let points = |least: usize| match fields.optional("points") {
             Some(node) => node.whole(least, MAX_POINTS),
             None => Ok(DEFAULT_POINTS),
@@ -80,6 +106,14 @@ impl Quadrature {
                 Self::Simpson { points }
             }
             Kind::Trapezoid => Self::Trapezoid { points: points(2)? },
+            Kind::GaussLegendre => Self::GaussLegendre { points: points(1)? },
+            Kind::MonteCarlo => Self::MonteCarlo {
+                points: points(1)?,
+                seed: match fields.optional("seed") {
+                    Some(node) => node.whole(0, u32::MAX as usize)? as u32,
+                    None => 0,
+                },
+            },
         })
     }
 
@@ -89,28 +123,101 @@ impl Quadrature {
         let (rule, points) = match self {
             Self::Simpson { points } => ("simpson", points),
             Self::Trapezoid { points } => ("trapezoid", points),
+            Self::GaussLegendre { points } => ("gaussLegendre", points),
+            Self::MonteCarlo { points, .. } => ("monteCarlo", points),
         };
-        Value::map([("rule", Value::text(rule)), ("points", Value::Number(*points as f64))])
+        let mut entries =
+            vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(*points as f64))];
+        if let Self::MonteCarlo { seed, .. } = self {
+            entries.push(("seed".to_owned(), Value::Number(f64::from(*seed))));
+        }
+        Value::Map(entries)
     }
 
     /// The nodes and weights over `[0, 1]`.
     #[must_use]
     pub fn rule(&self) -> Rule {
-        let mut rule = match *self {
+        match *self {
             Self::Simpson { points } => evenly(points, |i| match i {
                 _ if i == 0 || i + 1 == points => 1.0,
                 _ if i % 2 == 1 => 4.0,
                 _ => 2.0,
             }),
             Self::Trapezoid { points } => evenly(points, |i| if i == 0 || i + 1 == points { 0.5 } else { 1.0 }),
-        };
-        let sum: f64 = rule.weights.iter().sum();
-        rule.weights.iter_mut().for_each(|w| *w /= sum);
-        rule
+            Self::GaussLegendre { points } => gauss_legendre(points),
+            Self::MonteCarlo { points, seed } => drawn(points, seed, Random::uniform),
+        }
+        .normalised()
+    }
+
+    /// Nodes and weights for the standard normal density: the rule over four deviations to either side, each weight times
+    /// the density there; `monteCarlo` draws from the density itself.
+    #[must_use]
+    pub fn normal_rule(&self) -> Rule {
+        if let Self::MonteCarlo { points, seed } = *self {
+            return drawn(points, seed, Random::normal).normalised();
+        }
+        let mut rule = self.rule();
+        for (node, weight) in rule.nodes.iter_mut().zip(&mut rule.weights) {
+            *node = NORMAL_RANGE * (2.0 * *node - 1.0);
+            *weight *= (-0.5 * *node * *node).exp();
+        }
+        rule.normalised()
+    }
+}
+
+impl Rule {
+    fn normalised(mut self) -> Self {
+        let sum: f64 = self.weights.iter().sum();
+        self.weights.iter_mut().for_each(|weight| *weight /= sum);
+        self
     }
 }
 
 fn evenly(points: usize, weight: impl Fn(usize) -> f64) -> Rule {
     let last = points.saturating_sub(1).max(1) as f64;
     Rule { nodes: (0..points).map(|i| i as f64 / last).collect(), weights: (0..points).map(weight).collect() }
+}
+
+fn drawn(points: usize, seed: u32, draw: fn(&mut Random) -> f64) -> Rule {
+    let mut random = Random::new(u64::from(seed));
+    let mut nodes: Vec<f64> = (0..points).map(|_| draw(&mut random)).collect();
+    nodes.sort_by(f64::total_cmp);
+    Rule { nodes, weights: vec![1.0; points] }
+}
+
+/// The roots of Legendre's polynomial by Newton's method, the upper half of them from Tricomi's estimate.
+fn gauss_legendre(points: usize) -> Rule {
+    let mut rule = Rule { nodes: vec![0.5; points], weights: vec![1.0; points] };
+    for i in 0..points / 2 {
+        let mut root = (std::f64::consts::PI * (i as f64 + 0.75) / (points as f64 + 0.5)).cos();
+        for _ in 0..8 {
+            let (value, slope) = legendre(points, root);
+            root -= value / slope;
+        }
+        let (_, slope) = legendre(points, root);
+        let weight = 2.0 / ((1.0 - root * root) * slope * slope);
+        let mirror = points - 1 - i;
+        rule.nodes[i] = 0.5 * (1.0 - root);
+        rule.nodes[mirror] = 0.5 * (1.0 + root);
+        rule.weights[i] = weight;
+        rule.weights[mirror] = weight;
+    }
+    if points % 2 == 1 {
+        let (_, slope) = legendre(points, 0.0);
+        rule.weights[points / 2] = 2.0 / (slope * slope);
+    }
+    rule
+}
+
+/// Legendre's polynomial of a degree and its derivative, inside `(-1, 1)`.
+fn legendre(degree: usize, x: f64) -> (f64, f64) {
+    let (mut before, mut value) = (0.0, 1.0);
+    for k in 0..degree {
+        let k = k as f64;
+        let next = ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0);
+        before = value;
+        value = next;
+    }
+    (value, degree as f64 * (before - x * value) / (1.0 - x * x))
 }

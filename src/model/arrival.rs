@@ -1,7 +1,8 @@
 //! Priors on the arrival time `T` and the nodes at which they are summed; Liang (6), Ardeshiri (17).
 //!
 //! All but `horizon` are priors on `T - t_1`, the time from the first observation; `horizon` is one on `T - t_k`, the
-//! time to go, at every step. Every time is greater than zero.
+//! time to go, at every step. Every time is greater than zero. `logNormal` and `fitts` are integrated over `ln T`, from
+//! four spreads below the median to four above.
 
 use crate::error::{Code, Result};
 use crate::math::quadrature::{MAX_POINTS, Quadrature};
@@ -44,6 +45,23 @@ pub enum Arrival {
         /// Weights, at least one of them above zero; they need not sum to one.
         weights: Vec<f64>,
     },
+    /// Log-normal from the first observation: `ln T ~ N(ln median, spread^2)`.
+    LogNormal {
+        /// The median, in seconds.
+        median: f64,
+        /// The deviation of `ln T`.
+        spread: f64,
+    },
+    /// Log-normal about Fitts's law in Shannon's form, with the median
+    /// `intercept + slope log2(distance / size + 1)` (MacKenzie, Human-Computer Interaction 7, 1992).
+    Fitts {
+        /// The time at the distance zero, in seconds.
+        intercept: f64,
+        /// Seconds for each bit of difficulty.
+        slope: f64,
+        /// The deviation of `ln T`.
+        spread: f64,
+    },
     /// Evenly between two times to go, at every step.
     Horizon {
         /// The shortest, in seconds.
@@ -57,10 +75,23 @@ pub enum Arrival {
 enum Kind {
     Uniform,
     Discrete,
+    LogNormal,
+    Fitts,
     Horizon,
 }
 
-const KINDS: [(&str, Kind); 3] = [("uniform", Kind::Uniform), ("discrete", Kind::Discrete), ("horizon", Kind::Horizon)];
+const KINDS: [(&str, Kind); 5] = [
+    ("uniform", Kind::Uniform),
+    ("discrete", Kind::Discrete),
+    ("logNormal", Kind::LogNormal),
+    ("fitts", Kind::Fitts),
+    ("horizon", Kind::Horizon),
+];
+
+/// The largest deviation of `ln T`; one such deviation is a factor of 22 000.
+const MAX_SPREAD: f64 = 10.0;
+/// The most bits of difficulty that Fitts's law is asked for; a target without size would need infinitely many.
+const MAX_DIFFICULTY: f64 = 64.0;
 
 impl Arrival {
     /// Reads `{ "type", ... }`.
@@ -78,6 +109,18 @@ impl Arrival {
                 Self::Horizon { from, to }
             }
             Kind::Discrete => discrete(node)?,
+            Kind::LogNormal => {
+                let fields = node.fields(&["type", "median", "spread"])?;
+                let median = time(&fields.required("median")?)?;
+                Self::LogNormal { median, spread: spread(&fields.required("spread")?)? }
+            }
+            Kind::Fitts => {
+                let fields = node.fields(&["type", "intercept", "slope", "spread"])?;
+                let intercept = time(&fields.required("intercept")?)?;
+                let slope = fields.required("slope")?;
+                let slope = if slope.not_negative()? == 0.0 { 0.0 } else { time(&slope)? };
+                Self::Fitts { intercept, slope, spread: spread(&fields.required("spread")?)? }
+            }
         })
     }
 
@@ -92,6 +135,17 @@ impl Arrival {
                 ("times", Value::numbers(times)),
                 ("weights", Value::numbers(weights)),
             ]),
+            Self::LogNormal { median, spread } => Value::map([
+                ("type", Value::text("logNormal")),
+                ("median", Value::Number(*median)),
+                ("spread", Value::Number(*spread)),
+            ]),
+            Self::Fitts { intercept, slope, spread } => Value::map([
+                ("type", Value::text("fitts")),
+                ("intercept", Value::Number(*intercept)),
+                ("slope", Value::Number(*slope)),
+                ("spread", Value::Number(*spread)),
+            ]),
         }
     }
 
@@ -104,13 +158,13 @@ impl Arrival {
     /// Whether it depends on the destination's distance and size.
     #[must_use]
     pub const fn needs_distance(&self) -> bool {
-        false
+        matches!(self, Self::Fitts { .. })
     }
 
     /// The nodes and the logs of their probabilities. `distance`, from the first observation to the destination's
     /// centre, and `size`, its extent, matter only where [`Arrival::needs_distance`].
     #[must_use]
-    pub fn grid(&self, quadrature: &Quadrature, _distance: f64, _size: f64) -> Grid {
+    pub fn grid(&self, quadrature: &Quadrature, distance: f64, size: f64) -> Grid {
         match self {
             Self::Uniform { from, to } | Self::Horizon { from, to } => {
                 let rule = quadrature.rule();
@@ -118,6 +172,11 @@ impl Arrival {
                 Grid::new(times, &rule.weights)
             }
             Self::Discrete { times, weights } => Grid::new(times.clone(), weights),
+            Self::LogNormal { median, spread } => Grid::log_normal(*median, *spread, quadrature),
+            Self::Fitts { intercept, slope, spread } => {
+                let difficulty = if distance > 0.0 { (distance / size + 1.0).log2().min(MAX_DIFFICULTY) } else { 0.0 };
+                Grid::log_normal(intercept + slope * difficulty, *spread, quadrature)
+            }
         }
     }
 }
@@ -126,6 +185,11 @@ impl Grid {
     fn new(times: Vec<f64>, weights: &[f64]) -> Self {
         let sum: f64 = weights.iter().sum();
         Self { times, log_weights: weights.iter().map(|w| (w / sum).ln()).collect() }
+    }
+
+    fn log_normal(median: f64, spread: f64, quadrature: &Quadrature) -> Self {
+        let rule = quadrature.normal_rule();
+        Self::new(rule.nodes.iter().map(|z| median * (spread * z).exp()).collect(), &rule.weights)
     }
 }
 
@@ -171,6 +235,15 @@ fn discrete(node: &Node<'_>) -> Result<Arrival> {
         }
     };
     Ok(Arrival::Discrete { times, weights })
+}
+
+fn spread(node: &Node<'_>) -> Result<f64> {
+    let spread = node.number()?;
+    if spread > 0.0 && spread <= MAX_SPREAD {
+        Ok(spread)
+    } else {
+        Err(node.error(Code::OutOfRange, &format!("must be greater than 0 and at most {MAX_SPREAD}")))
+    }
 }
 
 /// A time in seconds, greater than zero and at most [`MAX_TIME`].

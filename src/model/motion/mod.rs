@@ -14,6 +14,11 @@
 //! |---|---|---|---|
 //! | `brownian` | [`brownian`] | `d` | `dx = dw` |
 //! | `constantVelocity` | [`constant_velocity`] | `2d` | `dv = dw` |
+//! | `constantAcceleration` | [`constant_acceleration`] | `3d` | `da = dw` |
+//! | `integratedOrnsteinUhlenbeck` | [`integrated_ornstein_uhlenbeck`] | `2d` | `dv = damping (drift - v) dt + dw` |
+//! | `meanReverting` | [`mean_reverting`] | `d` | `dx = rate (c - x) dt + dw` |
+//! | `equilibriumRevertingVelocity` | [`equilibrium_reverting_velocity`] | `2d` | `dv = (stiffness (c - x) - damping v) dt + dw` |
+//! | `custom` | [`custom`] | any | any |
 
 use crate::error::{Code, Error, Result};
 use crate::value::{Node, Value};
@@ -22,7 +27,12 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 pub mod brownian;
+pub mod constant_acceleration;
 pub mod constant_velocity;
+pub mod custom;
+pub mod equilibrium_reverting_velocity;
+pub mod integrated_ornstein_uhlenbeck;
+pub mod mean_reverting;
 
 /// The most axes that a model can have.
 pub const MAX_DIMENSIONS: usize = 3;
@@ -154,27 +164,64 @@ pub struct Motion {
 enum Kind {
     Brownian,
     ConstantVelocity,
+    ConstantAcceleration,
+    IntegratedOrnsteinUhlenbeck,
+    MeanReverting,
+    EquilibriumRevertingVelocity,
+    Custom,
 }
 
-const KINDS: [(&str, Kind); 2] = [("brownian", Kind::Brownian), ("constantVelocity", Kind::ConstantVelocity)];
+const KINDS: [(&str, Kind); 7] = [
+    ("brownian", Kind::Brownian),
+    ("constantVelocity", Kind::ConstantVelocity),
+    ("constantAcceleration", Kind::ConstantAcceleration),
+    ("integratedOrnsteinUhlenbeck", Kind::IntegratedOrnsteinUhlenbeck),
+    ("meanReverting", Kind::MeanReverting),
+    ("equilibriumRevertingVelocity", Kind::EquilibriumRevertingVelocity),
+    ("custom", Kind::Custom),
+];
+
+impl Kind {
+    const fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Brownian => &brownian::KEYS,
+            Self::ConstantVelocity => &constant_velocity::KEYS,
+            Self::ConstantAcceleration => &constant_acceleration::KEYS,
+            Self::IntegratedOrnsteinUhlenbeck => &integrated_ornstein_uhlenbeck::KEYS,
+            Self::MeanReverting => &mean_reverting::KEYS,
+            Self::EquilibriumRevertingVelocity => &equilibrium_reverting_velocity::KEYS,
+            Self::Custom => &custom::KEYS,
+        }
+    }
+}
 
 impl Motion {
     /// Reads `{ "type", "dimensions", ... }`.
     ///
     /// # Errors
-    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`.
+    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`,
+    /// `not-positive-definite`.
     pub fn read(node: &Node<'_>) -> Result<Self> {
         let kind = node.tag("type", &KINDS)?;
-        let fields = node.fields(match kind {
-            Kind::Brownian => &brownian::KEYS,
-            Kind::ConstantVelocity => &constant_velocity::KEYS,
-        })?;
+        let fields = node.fields(kind.keys())?;
         let dimensions = dimensions(&fields.required("dimensions")?)?;
-        let noise = NoiseCandidates::read(&fields.required("noise")?, dimensions)?;
+        let noise = match kind {
+            Kind::Custom => NoiseCandidates::fixed(Vec::new()),
+            _ => NoiseCandidates::read(&fields.required("noise")?, dimensions)?,
+        };
         let build = |noise: Vec<f64>| -> Result<Arc<dyn MotionModel>> {
             Ok(match kind {
                 Kind::Brownian => Arc::new(brownian::Brownian::new(noise)),
                 Kind::ConstantVelocity => Arc::new(constant_velocity::ConstantVelocity::new(noise)),
+                Kind::ConstantAcceleration => Arc::new(constant_acceleration::ConstantAcceleration::new(noise)),
+                Kind::IntegratedOrnsteinUhlenbeck => {
+                    Arc::new(integrated_ornstein_uhlenbeck::IntegratedOrnsteinUhlenbeck::read(&fields, noise)?)
+                }
+                Kind::MeanReverting => Arc::new(mean_reverting::MeanReverting::read(&fields, noise)?),
+                Kind::EquilibriumRevertingVelocity => {
+                    Arc::new(equilibrium_reverting_velocity::EquilibriumRevertingVelocity::read(&fields, noise)?)
+                }
+                Kind::Custom => Arc::new(custom::Custom::read(&fields, dimensions)?),
             })
         };
         let models = noise.noises.into_iter().map(build).collect::<Result<Vec<_>>>()?;
@@ -273,9 +320,13 @@ struct NoiseCandidates {
 }
 
 impl NoiseCandidates {
+    fn fixed(noise: Vec<f64>) -> Self {
+        Self { noises: vec![noise], weights: None }
+    }
+
     fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
         if !matches!(node.value(), Value::Map(_)) {
-            return Ok(Self { noises: vec![node.for_each_axis(dimensions, |n| n.positive())?], weights: None });
+            return Ok(Self::fixed(node.for_each_axis(dimensions, |n| n.positive())?));
         }
         let fields = node.fields(&["candidates", "weights"])?;
         let candidates = fields.required("candidates")?;

@@ -1,0 +1,112 @@
+//! A linear stochastic differential equation over a step: the integrals of Van Loan, "Computing integrals involving the
+//! matrix exponential", IEEE Transactions on Automatic Control 23 (1978) 395-404.
+//!
+//! ```text
+//! dx = (A x + b) dt + dw, E[dw dw'] = W dt
+//! F(h) = exp(A h)    I(h) = int_0^h exp(A u) du  (so M = I b)    Q(h) = int_0^h exp(A u) W exp(A' u) du
+//! ```
+//!
+//! Van Loan reads all three off one exponential of a block matrix; its corner `exp(-A h)` overflows for long steps, and
+//! scaling and squaring of the whole loses small entries beside large ones. Here the series of the same blocks is summed
+//! for a step of at most half of `1 / |A|`, which keeps the relative accuracy of every entry, and the step is doubled:
+//! ```text
+//! F - 1 = E:  E(2h) = 2 E + E E        I(2h) = 2 I + E I        Q(2h) = Q + F Q F'
+//! ```
+//! Carrying `F - 1` instead of `F` keeps modes that are slow beside `|A|`.
+
+use super::gaussian::symmetrise;
+use nalgebra::DMatrix;
+
+/// `1 / (k + 1)!` vanishes beside one at the last of them.
+const TERMS: usize = 19;
+
+/// The series of one equation, ready for any step.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use whither::math::van_loan::VanLoan;
+/// // position and velocity, driven by white noise of unit density: Q[0, 0] = h^3 / 3
+/// let equation = VanLoan::new(&dmatrix![0.0, 1.0; 0.0, 0.0], &dmatrix![0.0, 0.0; 0.0, 1.0]);
+/// assert!((equation.step(3.0).noise[(0, 0)] - 9.0).abs() < 1e-14);
+/// ```
+#[derive(Clone, Debug)]
+pub struct VanLoan {
+    /// `|A|`, the largest sum of a row's absolute values (1 where `A` is zero); time is measured in `1 / |A|`.
+    rate: f64,
+    /// `A^k / (k + 1)!` with `A` in units of `rate`: the coefficients of `I`.
+    integral: Vec<DMatrix<f64>>,
+    /// `A^(k+1) / (k + 1)!`: those of `F - 1`.
+    change: Vec<DMatrix<f64>>,
+    /// `W_k / (k + 1)!`, `W_0 = W`, `W_(k+1) = A W_k + W_k A'`: those of `Q`.
+    noise: Vec<DMatrix<f64>>,
+}
+
+/// What an equation is over one step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// `F`.
+    pub transition: DMatrix<f64>,
+    /// `I`, the integral of `F` over the step.
+    pub integral: DMatrix<f64>,
+    /// `Q`, symmetric.
+    pub noise: DMatrix<f64>,
+}
+
+impl VanLoan {
+    /// The equation with the drift `A` and the diffusion `W`, both `s` by `s`, `W` symmetric.
+    #[must_use]
+    #[inline(never)]
+    pub fn new(drift: &DMatrix<f64>, diffusion: &DMatrix<f64>) -> Self {
+        let largest = drift.row_iter().map(|row| row.iter().map(|a| a.abs()).sum()).fold(0.0, f64::max);
+        let rate = if largest > 0.0 { largest } else { 1.0 };
+        let unit = drift / rate;
+        let states = drift.nrows();
+        let (mut power, mut driven) = (DMatrix::identity(states, states), diffusion.clone());
+        let mut series = Self { rate, integral: Vec::new(), change: Vec::new(), noise: Vec::new() };
+        for k in 0..TERMS {
+            let divisor = (k + 2) as f64;
+            let next = &unit * &power;
+            series.integral.push(power);
+            series.change.push(next.clone());
+            power = next / divisor;
+            let next = &unit * &driven;
+            series.noise.push(driven);
+            driven = (&next + next.transpose()) / divisor;
+        }
+        series
+    }
+
+    /// What it is over a step, `step >= 0`.
+    #[must_use]
+    #[inline(never)]
+    pub fn step(&self, step: f64) -> Step {
+        let time = self.rate * step;
+        let doublings = if time > 0.5 { (2.0 * time).log2().ceil().min(1100.0) as i32 } else { 0 };
+        let short = time * 0.5f64.powi(doublings);
+        let mut change = sum(&self.change, short);
+        let mut integral = sum(&self.integral, short) / self.rate;
+        let mut noise = sum(&self.noise, short) / self.rate;
+        for _ in 0..doublings {
+            let grown = &change * &noise;
+            // Q + (1 + E) Q (1 + E)'
+            noise = 2.0 * noise + &grown + grown.transpose() + &grown * change.transpose();
+            integral = 2.0 * &integral + &change * &integral;
+            change = 2.0 * &change + &change * &change;
+        }
+        symmetrise(&mut noise);
+        for i in 0..change.nrows() {
+            change[(i, i)] += 1.0;
+        }
+        Step { transition: change, integral, noise }
+    }
+}
+
+/// `sum_k c_k t^(k+1)`.
+fn sum(coefficients: &[DMatrix<f64>], time: f64) -> DMatrix<f64> {
+    let states = coefficients.first().map_or(0, DMatrix::nrows);
+    coefficients.iter().rev().fold(DMatrix::zeros(states, states), |mut sum, coefficient| {
+        sum += coefficient;
+        sum *= time;
+        sum
+    })
+}

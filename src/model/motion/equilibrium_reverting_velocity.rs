@@ -1,0 +1,96 @@
+//! `equilibriumRevertingVelocity`: a damped spring pulls towards the destination.
+//!
+//! ```text
+//! dx = v dt                                        A = |  0           1       |      B = | 0         |      W = | 0  0       |
+//! dv = (stiffness (c - x) - damping v) dt + dw         | -stiffness  -damping |          | stiffness |          | 0  noise^2 |
+//!
+//! F = exp(A h)      B(h) = int_0^h exp(A u) B du      Q(h) = int_0^h exp(A u) W exp(A' u) du
+//! ```
+//!
+//! Source: Liang et al., section II (the equilibrium reverting velocity model); Ahmad et al., IEEE Transactions on
+//! Cybernetics 46 (2016).
+//!
+//! The closed forms differ between the underdamped, critical and overdamped spring, and each of them cancels somewhere
+//! (short steps, near the critical damping, almost no damping). [`VanLoan`] is as accurate in all of them, so it is the
+//! one form here; the tests compare it with the closed forms, computed with 50 digits.
+
+use super::{AxisTransition, MotionModel, axis_value};
+use crate::error::Result;
+use crate::math::van_loan::VanLoan;
+use crate::value::{Fields, Value};
+use nalgebra::DMatrix;
+
+pub(super) const KEYS: [&str; 5] = ["type", "dimensions", "noise", "stiffness", "damping"];
+
+/// A damped spring towards the destination; `s = 2d`.
+///
+/// ```
+/// use whither::{model::motion::Motion, value::{Node, Value}};
+/// let value = Value::map([
+///     ("type", Value::text("equilibriumRevertingVelocity")),
+///     ("dimensions", Value::Number(1.0)),
+///     ("noise", Value::Number(1.0)),
+///     ("stiffness", Value::Number(4.0)),
+///     ("damping", Value::Number(3.0)),
+/// ]);
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(100.0);
+/// assert!((step.destination_gain.unwrap()[(0, 0)] - 1.0).abs() < 1e-14); // after a long time it is there,
+/// assert!((step.noise[(0, 0)] - 1.0 / 24.0).abs() < 1e-14); // with the variance noise^2 / (2 stiffness damping)
+/// ```
+#[derive(Clone, Debug)]
+pub struct EquilibriumRevertingVelocity {
+    noise: Vec<f64>,
+    stiffness: f64,
+    damping: f64,
+    /// One axis, driven by noise of unit density.
+    equation: VanLoan,
+}
+
+impl EquilibriumRevertingVelocity {
+    pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
+        let stiffness = fields.required("stiffness")?.positive()?;
+        let damping = fields.required("damping")?.not_negative()?;
+        let drift = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -stiffness, -damping]);
+        let diffusion = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 1.0]);
+        Ok(Self { noise, stiffness, damping, equation: VanLoan::new(&drift, &diffusion) })
+    }
+}
+
+impl MotionModel for EquilibriumRevertingVelocity {
+    fn dimensions(&self) -> usize {
+        self.noise.len()
+    }
+
+    fn states(&self) -> usize {
+        2 * self.noise.len()
+    }
+
+    fn depends_on_destination(&self) -> bool {
+        true
+    }
+
+    fn axis(&self, axis: usize, step: f64) -> Option<AxisTransition> {
+        let noise = self.noise.get(axis)?;
+        let over = self.equation.step(step);
+        let mut one = AxisTransition { states: 2, ..AxisTransition::default() };
+        for i in 0..2 {
+            for j in 0..2 {
+                one.transition[i][j] = over.transition[(i, j)];
+                one.noise[i][j] = noise * noise * over.noise[(i, j)];
+            }
+            one.destination_gain[i] = self.stiffness * over.integral[(i, 1)];
+        }
+        Some(one)
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("type", Value::text("equilibriumRevertingVelocity")),
+            ("dimensions", Value::Number(self.noise.len() as f64)),
+            ("noise", axis_value(&self.noise)),
+            ("stiffness", Value::Number(self.stiffness)),
+            ("damping", Value::Number(self.damping)),
+        ])
+    }
+}

@@ -1,0 +1,93 @@
+//! `integratedOrnsteinUhlenbeck`: the velocity reverts to `drift` at the rate `damping` while noise drives it.
+//!
+//! ```text
+//! dx = v dt                              F = | 1  (1 - e^-x) / damping |      M = drift | h - (1 - e^-x) / damping |
+//! dv = damping (drift - v) dt + dw           | 0   e^-x                |                | 1 - e^-x                |
+//!
+//! x = damping h      Q = noise^2 | (h - 2 (1 - e^-x) / damping + (1 - e^-2x) / (2 damping)) / damping^2      . |
+//!                                | (1 - e^-x)^2 / (2 damping^2)                      (1 - e^-2x) / (2 damping) |
+//! ```
+//!
+//! Source: Liang et al., section II (the integrated Ornstein-Uhlenbeck model among those that (1) covers); Uhlenbeck
+//! and Ornstein, "On the theory of the Brownian motion", Physical Review 36 (1930). Without damping it is
+//! `constantVelocity`. The quotients come from [`math::decay`](crate::math::decay), exact for small `x`.
+
+use super::{AxisTransition, MotionModel, axis_value};
+use crate::error::Result;
+use crate::math::decay::{decay, decay_ramp, decay_square};
+use crate::value::{Fields, Value};
+
+pub(super) const KEYS: [&str; 5] = ["type", "dimensions", "noise", "damping", "drift"];
+
+/// Integrated Ornstein-Uhlenbeck motion; `s = 2d`.
+///
+/// ```
+/// use whither::{model::motion::Motion, value::{Node, Value}};
+/// let value = Value::map([
+///     ("type", Value::text("integratedOrnsteinUhlenbeck")),
+///     ("dimensions", Value::Number(1.0)),
+///     ("noise", Value::Number(1.0)),
+///     ("damping", Value::Number(2.0)),
+///     ("drift", Value::Number(3.0)),
+/// ]);
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(100.0);
+/// assert_eq!(step.offset[1], 3.0); // after a long time the velocity is `drift`
+/// assert_eq!(step.noise[(1, 1)], 0.25); // and its variance noise^2 / (2 damping)
+/// ```
+#[derive(Clone, Debug)]
+pub struct IntegratedOrnsteinUhlenbeck {
+    noise: Vec<f64>,
+    damping: f64,
+    drift: Vec<f64>,
+}
+
+impl IntegratedOrnsteinUhlenbeck {
+    pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
+        let damping = fields.required("damping")?.not_negative()?;
+        let drift = match fields.optional("drift") {
+            Some(node) => node.for_each_axis(noise.len(), |node| node.number())?,
+            None => vec![0.0; noise.len()],
+        };
+        Ok(Self { noise, damping, drift })
+    }
+}
+
+impl MotionModel for IntegratedOrnsteinUhlenbeck {
+    fn dimensions(&self) -> usize {
+        self.noise.len()
+    }
+
+    fn states(&self) -> usize {
+        2 * self.noise.len()
+    }
+
+    fn axis(&self, axis: usize, step: f64) -> Option<AxisTransition> {
+        let (noise, drift) = (self.noise.get(axis)?, self.drift.get(axis)?);
+        let (h, q) = (step, noise * noise);
+        let x = self.damping * h;
+        let once = decay(x);
+        let covariance = q * h * h * once * once / 2.0;
+        Some(AxisTransition {
+            states: 2,
+            transition: [[1.0, h * once, 0.0], [0.0, (-x).exp(), 0.0], [0.0; 3]],
+            offset: [drift * h * x * decay_ramp(x), -drift * (-x).exp_m1(), 0.0],
+            noise: [
+                [q * h * h * h * decay_square(x), covariance, 0.0],
+                [covariance, q * h * decay(2.0 * x), 0.0],
+                [0.0; 3],
+            ],
+            ..AxisTransition::default()
+        })
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("type", Value::text("integratedOrnsteinUhlenbeck")),
+            ("dimensions", Value::Number(self.noise.len() as f64)),
+            ("noise", axis_value(&self.noise)),
+            ("damping", Value::Number(self.damping)),
+            ("drift", axis_value(&self.drift)),
+        ])
+    }
+}
