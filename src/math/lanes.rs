@@ -16,15 +16,15 @@ pub const WIDTH: usize = 8;
 /// Eight numbers in memory; flat arrays are lists of them.
 pub type Block = [f64; WIDTH];
 
-/// The exponents that [`Lanes::exp2`] takes as they are lie within this of zero.
+/// The exponents that [`Lanes::exp2`] takes as they are lie within this of the shift.
 pub const MOST_EXPONENT: f64 = 960.0;
 
 /// Eight numbers that are worked on together.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes(Vector);
 
-/// `1.5 * 2^52`: added to a number below `2^51`, it leaves the nearest whole number in the last bits.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// A [`Shift`] beyond this is taken as this; there exponents have no fraction left.
+const MOST_SHIFT: f64 = 1e15;
 
 /// The polynomial nearest to `2^(r/8)` for `|r| <= 1/2` in relative error, which is 9e-16 (exchange algorithm of Remez).
 const POLYNOMIAL: [f64; 7] = [
@@ -88,17 +88,18 @@ impl Lanes {
         block.iter().sum()
     }
 
-    /// `2^x` of each to a relative 2e-14. Exponents beyond [`MOST_EXPONENT`] on either side are taken as that, and NaN as
-    /// the least of them, so no result is subnormal, infinite or NaN.
+    /// `2^(x - shift)` of each to a relative 2e-14. Beyond [`MOST_EXPONENT`] on either side the result stays what it is there,
+    /// and NaN counts as the least, so no result is subnormal, infinite or NaN.
     ///
     /// The exponent is split into a whole number and a rest `r` in `[-1/2, 1/2]`; `2^(r/8)` is a polynomial, three squarings
-    /// make it `2^r`, and the whole number is added to the bits of its exponent.
+    /// make it `2^r`, and the whole number is added to the bits of its exponent. The shift is part of that whole number, so it
+    /// changes no digit.
     #[inline(always)]
     #[must_use]
-    pub fn exp2(self) -> Self {
+    pub fn exp2(self, shift: &Shift) -> Self {
         let [c0, c1, c2, c3, c4, c5, c6] = POLYNOMIAL;
-        let (s, rounder) = (Self::splat, Self::splat(ROUNDER));
-        let x = self.at_most(s(MOST_EXPONENT)).at_least(s(-MOST_EXPONENT));
+        let (s, rounder) = (Self::splat, Self::splat(shift.rounder));
+        let x = self.at_most(s(shift.most)).at_least(s(shift.least));
         let whole = x + rounder;
         let r = x - (whole - rounder);
         let p = s(c6) * r + s(c5);
@@ -111,6 +112,24 @@ impl Lanes {
         let p = p * p;
         let p = p * p;
         Self(p.0.add_to_exponent(whole.0))
+    }
+}
+
+/// A whole number that [`Lanes::exp2`] takes off every exponent.
+#[derive(Clone, Copy, Debug)]
+pub struct Shift {
+    /// `1.5 * 2^52 - shift`: added to a number below `2^51`, it leaves the nearest whole number, shifted, in the last bits.
+    rounder: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Shift {
+    /// A shift by the whole number nearest to `x`.
+    #[must_use]
+    pub fn by(x: f64) -> Self {
+        let shift = x.round().clamp(-MOST_SHIFT, MOST_SHIFT);
+        Self { rounder: 6_755_399_441_055_744.0 - shift, least: shift - MOST_EXPONENT, most: shift + MOST_EXPONENT }
     }
 }
 
@@ -324,7 +343,7 @@ mod tests {
 
     fn exp2(x: f64) -> f64 {
         let mut block = [0.0; WIDTH];
-        Lanes::splat(x).exp2().store(&mut block);
+        Lanes::splat(x).exp2(&Shift::by(0.0)).store(&mut block);
         assert!(block.iter().all(|y| y.to_bits() == block[0].to_bits()));
         block[0]
     }
@@ -358,6 +377,17 @@ mod tests {
         }
         for x in [961.0, 1025.0, 1e9, 1e300, f64::INFINITY] {
             assert_eq!(exp2(x), f64::exp2(MOST_EXPONENT), "2^{x}");
+        }
+    }
+
+    #[test]
+    fn a_shift_changes_no_digit() {
+        for shift in [-1e12, -1234.0, -1.0, 7.0, 100_000.0, 1e12] {
+            for rest in [-0.5, -0.3, 0.125, 0.25, 0.375, 17.5, -200.625] {
+                let mut block = [0.0; WIDTH];
+                Lanes::splat(shift + rest).exp2(&Shift::by(shift)).store(&mut block);
+                assert_eq!(block[0], exp2((shift + rest) - shift), "{shift} {rest}");
+            }
         }
     }
 

@@ -5,6 +5,7 @@ pub mod gaussian;
 pub mod kalman;
 pub mod lanes;
 pub mod log_sum_exp;
+pub mod mixture;
 pub mod quadrature;
 pub mod random;
 pub mod van_loan;

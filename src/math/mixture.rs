@@ -1,0 +1,418 @@
+//! The hot loop: at many places at once, sums of exponentials of quadratics.
+//!
+//! ```text
+//! w_i = prior_i sum_n f_n 2^(quadratic_n(a_i) - shift)
+//! ```
+//!
+//! The ratio of two Gaussian densities of an endpoint is such a term, and a sum over arrival nodes (and noise candidates) is
+//! such a sum, for all destinations whose endpoints have one covariance ([`Ball`], [`Ellipsoid`]) or each its own ([`Own`]).
+//! Places lie in flat arrays of [`Block`]s, a list for each axis.
+//!
+//! The shift is a whole number that goes into the exponent's bits, so it changes no digit of any weight: whichever shift
+//! leads to a sum in range leads to the same probabilities, to the bit.
+
+use super::lanes::{Block, Lanes, Shift, WIDTH};
+
+/// Half of `log2(e)`: a density's exponent in base 2 is this times the squared distance.
+pub const HALF_LOG2_E: f64 = 0.5 * std::f64::consts::LOG2_E;
+
+/// Where the terms are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Places<'a, const D: usize> {
+    /// Coordinates, a list for each axis.
+    pub coordinates: [&'a [Block]; D],
+    /// Variances of the endpoint in each axis, beyond those of the terms; for [`Own`] terms only, else empty.
+    pub variances: [&'a [Block]; D],
+    /// What [`Ball`] terms are expanded about.
+    pub origin: [f64; D],
+}
+
+/// One term, `factor * 2^exponent` at every place.
+pub trait Term<const D: usize>: Copy {
+    /// What is the same for every term at one block of places.
+    type Place: Copy;
+
+    /// The places of block `i`; none beyond the end.
+    fn place(places: &Places<'_, D>, i: usize) -> Option<Self::Place>;
+
+    /// The exponent, in base 2.
+    fn exponent(&self, place: &Self::Place) -> Lanes;
+
+    /// The exponent, and the factor before the power.
+    fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes);
+}
+
+/// A quadratic with one curvature for all axes, expanded about the origin of the [`Places`]: the cheapest form, for where
+/// its terms do not cancel.
+#[derive(Clone, Copy, Debug)]
+pub struct Ball<const D: usize> {
+    /// The factor of the squared distance from the origin.
+    pub curvature: f64,
+    /// The factors of the offsets from the origin.
+    pub slope: [f64; D],
+    /// What is left of the exponent.
+    pub constant: f64,
+    /// Before the power.
+    pub factor: f64,
+}
+
+/// Any quadratic, about a centre of its own: `c + sum_k d_k (b_k + sum_{j >= k} A_kj d_j)`, `d = a - centre`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ellipsoid<const D: usize> {
+    /// What offsets are measured from.
+    pub center: [f64; D],
+    /// `A`, the upper triangle, its off-diagonal entries doubled; the rest is not read.
+    pub curvature: [[f64; D]; D],
+    /// `b`.
+    pub slope: [f64; D],
+    /// `c`.
+    pub constant: f64,
+    /// Before the power.
+    pub factor: f64,
+}
+
+/// The ratio of two Gaussians without correlation between axes, to each of whose variances every place adds its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Own<const D: usize> {
+    /// The numerator's mean.
+    pub mean: [f64; D],
+    /// The numerator's variances.
+    pub variance: [f64; D],
+    /// The denominator's mean.
+    pub start_mean: [f64; D],
+    /// The denominator's variances.
+    pub start_variance: [f64; D],
+    /// What is added to the exponent.
+    pub constant: f64,
+    /// What multiplies the ratio.
+    pub factor: f64,
+}
+
+// closures would stay calls at the level for size
+#[inline(always)]
+fn at(list: &[Block], i: usize) -> Option<Lanes> {
+    Some(Lanes::load(list.get(i)?))
+}
+
+/// One axis of an [`Own`] term: the ratio's exponent over a common denominator, that denominator, the start's variance.
+#[inline(always)]
+fn own_axis(
+    coordinate: Lanes,
+    own: Lanes,
+    (mean, variance): (f64, f64),
+    (start_mean, start_variance): (f64, f64),
+) -> (Lanes, Lanes, Lanes) {
+    let variance = Lanes::splat(variance) + own;
+    let start_variance = Lanes::splat(start_variance) + own;
+    let offset = coordinate - Lanes::splat(mean);
+    let start_offset = coordinate - Lanes::splat(start_mean);
+    let numerator = offset * offset * start_variance - start_offset * start_offset * variance;
+    (numerator, variance * start_variance, start_variance)
+}
+
+macro_rules! terms {
+    ($d:literal: $first:literal $($rest:literal)*, $([$row:literal $($column:literal)*])*) => {
+        impl Term<$d> for Ball<$d> {
+            /// Offsets from the origin, and their squared length.
+            type Place = ([Lanes; $d], Lanes);
+
+            #[inline(always)]
+            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+                let offsets = [
+                    at(places.coordinates[$first], i)? - Lanes::splat(places.origin[$first]),
+                    $(at(places.coordinates[$rest], i)? - Lanes::splat(places.origin[$rest])),*
+                ];
+                let square = offsets[$first] * offsets[$first] $(+ offsets[$rest] * offsets[$rest])*;
+                Some((offsets, square))
+            }
+
+            #[inline(always)]
+            fn exponent(&self, (offsets, square): &Self::Place) -> Lanes {
+                Lanes::splat(self.curvature) * *square
+                    + Lanes::splat(self.slope[$first]) * offsets[$first]
+                    $(+ Lanes::splat(self.slope[$rest]) * offsets[$rest])*
+                    + Lanes::splat(self.constant)
+            }
+
+            #[inline(always)]
+            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
+                (self.exponent(place), Lanes::splat(self.factor))
+            }
+        }
+
+        impl Term<$d> for Ellipsoid<$d> {
+            /// Coordinates.
+            type Place = [Lanes; $d];
+
+            #[inline(always)]
+            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+                Some([at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*])
+            }
+
+            #[inline(always)]
+            fn exponent(&self, place: &Self::Place) -> Lanes {
+                let offsets = [
+                    place[$first] - Lanes::splat(self.center[$first]),
+                    $(place[$rest] - Lanes::splat(self.center[$rest])),*
+                ];
+                Lanes::splat(self.constant)
+                    $(+ offsets[$row] * (
+                        Lanes::splat(self.curvature[$row][$row]) * offsets[$row]
+                        $(+ Lanes::splat(self.curvature[$row][$column]) * offsets[$column])*
+                        + Lanes::splat(self.slope[$row])
+                    ))*
+            }
+
+            #[inline(always)]
+            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
+                (self.exponent(place), Lanes::splat(self.factor))
+            }
+        }
+
+        impl Term<$d> for Own<$d> {
+            /// Coordinates, and their variances.
+            type Place = ([Lanes; $d], [Lanes; $d]);
+
+            #[inline(always)]
+            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+                Some((
+                    [at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*],
+                    [at(places.variances[$first], i)?, $(at(places.variances[$rest], i)?),*],
+                ))
+            }
+
+            #[inline(always)]
+            fn exponent(&self, place: &Self::Place) -> Lanes {
+                self.exponent_and_factor(place).0
+            }
+
+            // over the common denominator, so that one division and one root serve all axes
+            #[inline(always)]
+            fn exponent_and_factor(&self, (coordinates, variances): &Self::Place) -> (Lanes, Lanes) {
+                let (numerator, product, start_product) = own_axis(
+                    coordinates[$first],
+                    variances[$first],
+                    (self.mean[$first], self.variance[$first]),
+                    (self.start_mean[$first], self.start_variance[$first]),
+                );
+                $(
+                    let (next, other, start_variance) = own_axis(
+                        coordinates[$rest],
+                        variances[$rest],
+                        (self.mean[$rest], self.variance[$rest]),
+                        (self.start_mean[$rest], self.start_variance[$rest]),
+                    );
+                    let numerator = numerator * other + next * product;
+                    let product = product * other;
+                    let start_product = start_product * start_variance;
+                )*
+                let inverse = Lanes::splat(1.0) / product;
+                let exponent = Lanes::splat(self.constant) - Lanes::splat(HALF_LOG2_E) * (numerator * inverse);
+                (exponent, Lanes::splat(self.factor) * start_product * inverse.sqrt())
+            }
+        }
+    };
+}
+
+terms!(1: 0, [0]);
+terms!(2: 0 1, [0 1] [1]);
+terms!(3: 0 1 2, [0 1 2] [1 2] [2]);
+
+/// Writes `prior_i sum_n f_n 2^(e_n(i) - shift)` for every place, and returns their sum over all of them. Exponents are cut at
+/// 960 on either side of the shift, a whole number.
+#[inline(never)]
+pub fn weigh<const D: usize, T: Term<D>>(
+    terms: &[T],
+    places: &Places<'_, D>,
+    shift: f64,
+    priors: &[Block],
+    weights: &mut [Block],
+) -> f64 {
+    let shift = Shift::by(shift);
+    let mut total = Lanes::splat(0.0);
+    for (i, (prior, weight)) in priors.iter().zip(weights).enumerate() {
+        let (Some(place), Some(mut term)) = (T::place(places, i), terms.first()) else { break };
+        let mut rest = terms[1..].iter();
+        let mut sum = Lanes::splat(0.0);
+        // the test stands at the end, because engines compile a loop the better for it, by a third
+        loop {
+            let (exponent, factor) = term.exponent_and_factor(&place);
+            sum = sum + factor * exponent.exp2(&shift);
+            match rest.next() {
+                Some(next) => term = next,
+                None => break,
+            }
+        }
+        let weighed = sum * Lanes::load(prior);
+        weighed.store(weight);
+        total = total + weighed;
+    }
+    total.sum()
+}
+
+/// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
+#[inline(never)]
+pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_, D>, logs: &mut [Block]) {
+    let none = Shift::by(0.0);
+    for (i, log) in logs.iter_mut().enumerate() {
+        let (Some(place), Some(first)) = (T::place(places, i), terms.first()) else { break };
+        let mut top = first.exponent(&place);
+        for term in terms {
+            top = term.exponent(&place).at_least(top);
+        }
+        let mut sum = Lanes::splat(0.0);
+        for term in terms {
+            let (exponent, factor) = term.exponent_and_factor(&place);
+            sum = sum + factor * (exponent - top).exp2(&none);
+        }
+        let mut tops = [0.0; WIDTH];
+        top.store(&mut tops);
+        sum.store(log);
+        log.iter_mut().zip(tops).for_each(|(log, top)| *log = top + log.log2());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Places on a line of three blocks, the last three of them padding.
+    fn line(step: f64) -> Vec<Block> {
+        (0..3).map(|b| std::array::from_fn(|l| step * (b * WIDTH + l) as f64 - 5.0)).collect()
+    }
+
+    fn gaussian(x: f64, mean: f64, variance: f64) -> f64 {
+        (-0.5 * (x - mean) * (x - mean) / variance).exp() / (std::f64::consts::TAU * variance).sqrt()
+    }
+
+    /// `N(a; m, v) / N(a; u, w)` for two axes in each of the three forms.
+    struct Ratio {
+        m: [f64; 2],
+        u: [f64; 2],
+        v: f64,
+        w: f64,
+    }
+
+    impl Ratio {
+        fn at(&self, a: [f64; 2]) -> f64 {
+            (0..2).map(|k| gaussian(a[k], self.m[k], self.v) / gaussian(a[k], self.u[k], self.w)).product()
+        }
+
+        fn ball(&self, origin: [f64; 2]) -> Ball<2> {
+            let h = HALF_LOG2_E;
+            let (p, g) = ([0, 1].map(|k| self.m[k] - origin[k]), [0, 1].map(|k| self.u[k] - origin[k]));
+            let square = |x: [f64; 2]| x[0] * x[0] + x[1] * x[1];
+            Ball {
+                curvature: h * (1.0 / self.w - 1.0 / self.v),
+                slope: [0, 1].map(|k| 2.0 * h * (p[k] / self.v - g[k] / self.w)),
+                constant: h * (square(g) / self.w - square(p) / self.v),
+                factor: self.w / self.v,
+            }
+        }
+
+        fn ellipsoid(&self) -> Ellipsoid<2> {
+            let h = HALF_LOG2_E;
+            let a = h * (1.0 / self.w - 1.0 / self.v);
+            let apart = [0, 1].map(|k| self.m[k] - self.u[k]);
+            Ellipsoid {
+                center: self.m,
+                curvature: [[a, 0.0], [0.0, a]],
+                slope: apart.map(|x| 2.0 * h * x / self.w),
+                constant: h * (apart[0] * apart[0] + apart[1] * apart[1]) / self.w,
+                factor: self.w / self.v,
+            }
+        }
+
+        fn own(&self, own: f64) -> Own<2> {
+            Own {
+                mean: self.m,
+                variance: [self.v - own; 2],
+                start_mean: self.u,
+                start_variance: [self.w - own; 2],
+                constant: 0.0,
+                factor: 1.0,
+            }
+        }
+    }
+
+    const RATIOS: [Ratio; 3] = [
+        Ratio { m: [1.0, 2.0], u: [-3.0, 0.5], v: 4.0, w: 30.0 },
+        Ratio { m: [8.0, -2.0], u: [-3.5, 0.5], v: 9.0, w: 50.0 },
+        Ratio { m: [20.0, -8.0], u: [-4.0, 0.5], v: 25.0, w: 90.0 },
+    ];
+
+    #[test]
+    fn each_form_of_a_ratio_of_densities_gives_the_sum_over_them() {
+        let (x, y, s) = (line(1.5), line(-0.7), vec![[2.5; WIDTH]; 3]);
+        let origin = [0.3, -0.2];
+        let places = Places { coordinates: [x.as_slice(), &y], variances: [s.as_slice(), &s], origin };
+        let priors = vec![[0.25; WIDTH]; 3];
+        let expect = |found: &[Block], total: f64, what: &str| {
+            let mut sum = 0.0;
+            for (i, found) in found.as_flattened().iter().enumerate() {
+                let a = [x.as_flattened()[i], y.as_flattened()[i]];
+                let expected = 0.25 * RATIOS.iter().map(|r| r.at(a)).sum::<f64>();
+                assert!((found / expected - 1.0).abs() < 1e-12, "{what} at {a:?}: {found:e} {expected:e}");
+                sum += expected;
+            }
+            assert!((total / sum - 1.0).abs() < 1e-13, "{what}");
+        };
+        let mut weights = vec![[0.0; WIDTH]; 3];
+        let total = weigh(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
+        expect(&weights, total, "ball");
+        let total = weigh(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, 0.0, &priors, &mut weights);
+        expect(&weights, total, "ellipsoid");
+        let total = weigh(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
+        expect(&weights, total, "own");
+        let mut logs = vec![[0.0; WIDTH]; 3];
+        log2_sums(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
+        for (log, weight) in logs.as_flattened().iter().zip(weights.as_flattened()) {
+            assert!((log - (weight / 0.25).log2()).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_correlated_quadratic_in_three_dimensions() {
+        let term = Ellipsoid {
+            center: [1.0, -1.0, 2.0],
+            curvature: [[-0.5, 0.25, -0.125], [0.0, -1.0, 0.5], [0.0, 0.0, -2.0]],
+            slope: [0.5, 0.0, -1.0],
+            constant: 3.0,
+            factor: 0.5,
+        };
+        let ones = [[2.0; WIDTH]];
+        let places = Places { coordinates: [&ones[..]; 3], variances: [&[]; 3], origin: [0.0; 3] };
+        let mut weights = [[0.0; WIDTH]];
+        // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
+        let total = weigh(&[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let expected = 0.5 * (-5.25f64).exp2();
+        assert!((weights[0][7] / expected - 1.0).abs() < 1e-14 && (total / (8.0 * expected) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_shift_changes_no_digit_of_any_weight() {
+        let (x, y) = (line(1.5), line(-0.7));
+        let places = Places { coordinates: [x.as_slice(), &y], variances: [&[]; 2], origin: [0.0; 2] };
+        let terms = RATIOS.each_ref().map(Ratio::ellipsoid);
+        let priors = vec![[1.0; WIDTH]; 3];
+        let (mut plain, mut shifted) = (vec![[0.0; WIDTH]; 3], vec![[0.0; WIDTH]; 3]);
+        let total = weigh(&terms, &places, 0.0, &priors, &mut plain);
+        for shift in [-50.0, 13.0, 400.0] {
+            let other = weigh(&terms, &places, shift, &priors, &mut shifted);
+            assert_eq!(other * shift.exp2(), total);
+            for (a, b) in plain.as_flattened().iter().zip(shifted.as_flattened()) {
+                assert_eq!(*a, b * shift.exp2());
+            }
+        }
+    }
+
+    #[test]
+    fn logs_neither_overflow_nor_vanish() {
+        let ball = |constant| Ball { curvature: -1.0, slope: [0.0], constant, factor: 2.0 };
+        let x = [[0.0, 1.0, 1e3, 1e6, 0.0, 0.0, 0.0, 0.0]];
+        let places = Places { coordinates: [&x[..]], variances: [&[]], origin: [0.0] };
+        let mut logs = [[0.0; WIDTH]];
+        log2_sums(&[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
+        assert_eq!(logs[0][..4], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
+    }
+}
