@@ -6,11 +6,11 @@ import { root } from "./run.mjs";
 
 /**
  * Does `work` unless it was done before with the same `inputs` (files and folders, by their content) and its `outputs` are
- * still there. Paths are relative to the repository.
+ * still there. Paths are relative to the repository; what is in `ignore` does not count.
  */
-export async function incremental(name, { inputs, outputs }, work) {
+export async function incremental(name, { inputs, ignore = null, outputs }, work) {
   const stamp = join(root, "target/stamps", name);
-  const now = contentHash(inputs);
+  const now = contentHash(inputs, ignore);
   const done = existsSync(stamp) && readFileSync(stamp, "utf8") === now;
   if (done && outputs.every((output) => existsSync(join(root, output)))) return;
   await work();
@@ -18,9 +18,10 @@ export async function incremental(name, { inputs, outputs }, work) {
   writeFileSync(stamp, now);
 }
 
-function contentHash(inputs) {
+function contentHash(inputs, ignore) {
   const hash = createHash("sha256");
   const add = (path) => {
+    if (path === ignore) return;
     const absolute = join(root, path);
     if (statSync(absolute).isDirectory()) {
       for (const entry of readdirSync(absolute).sort()) add(`${path}/${entry}`);

@@ -1,0 +1,103 @@
+// `npm test`: all set-up and every test. `npm test -- rust wasm js package browser` runs the parts that are named.
+import { readdirSync } from "node:fs";
+import { join } from "node:path";
+import { build } from "./build.mjs";
+import { buildDemo } from "./build-demo.mjs";
+import { ensureChromium } from "./chromium.mjs";
+import { capture, Failure, main, root } from "./run.mjs";
+import { setUp } from "./setup.mjs";
+
+const wasmTarget = ["--target", "wasm32-unknown-unknown", "--features", "wasm"];
+const wasmFlags = { CARGO_ENCODED_RUSTFLAGS: "-Ctarget-feature=+simd128" };
+
+const parts = {
+  async rust() {
+    await check("cargo", ["fmt", "--all", "--check"]);
+    await check("cargo", ["clippy", "--all-targets", "--", "-D", "warnings"]);
+    await check("cargo", ["clippy", ...wasmTarget, "--lib", "--", "-D", "warnings"], wasmFlags);
+    await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
+    await tests("cargo", ["test"]);
+  },
+  async wasm() {
+    await tests("cargo", ["test", ...wasmTarget, "--test", "wasm"], wasmFlags);
+  },
+  async js() {
+    await build();
+    await tests("node", nodeTests("tests/js"));
+  },
+  async package() {
+    await ensureChromium();
+    await build();
+    await tests("node", nodeTests("tests/package"));
+  },
+  async browser() {
+    await ensureChromium();
+    await buildDemo();
+    await tests("node", nodeTests("tests/browser"));
+  },
+};
+
+/** What was run: `{ name, passed, failed, skipped, seconds }`. */
+const runs = [];
+
+/** A run that counts as one test. */
+async function check(program, args, env) {
+  await record(program, args, env, ({ code }) => ({ passed: Number(code === 0), failed: Number(code !== 0), skipped: 0 }));
+}
+
+/** A run of a test runner, which says how many tests there were. */
+async function tests(program, args, env) {
+  await record(program, args, env, ({ code, output }) => {
+    const counts = { passed: 0, failed: 0, skipped: 0 };
+    for (const [, passed, failed, skipped] of output.matchAll(/^test result: .* (\d+) passed; (\d+) failed; (\d+) ignored/gm)) {
+      counts.passed += Number(passed);
+      counts.failed += Number(failed);
+      counts.skipped += Number(skipped);
+    }
+    const names = { pass: "passed", fail: "failed", cancelled: "failed", skipped: "skipped", todo: "failed" };
+    for (const [, name, count] of output.matchAll(/^\S+ (pass|fail|cancelled|skipped|todo) (\d+)$/gm)) {
+      counts[names[name]] += Number(count);
+    }
+    // A runner that fails without a failed test did not get as far; one that runs no test shows nothing.
+    if (counts.failed === 0 && (code !== 0 || counts.passed === 0)) counts.failed = 1;
+    return counts;
+  });
+}
+
+async function record(program, args, env, count) {
+  const name = [program, ...args].join(" ");
+  console.log(`\n> ${name}`);
+  const start = Date.now();
+  const counts = count(await capture(program, args, { env, show: true }));
+  runs.push({ name, ...counts, seconds: Math.round((Date.now() - start) / 1000) });
+}
+
+function nodeTests(folder) {
+  const files = readdirSync(join(root, folder)).filter((name) => name.endsWith(".test.mjs"));
+  return ["--test", "--test-reporter=spec", ...files.sort().map((name) => `${folder}/${name}`)];
+}
+
+function summary() {
+  const total = { passed: 0, failed: 0, skipped: 0 };
+  console.log("");
+  for (const { name, seconds, ...counts } of runs) {
+    for (const key of Object.keys(total)) total[key] += counts[key];
+    const shown = name.length > 76 ? `${name.slice(0, 73)}...` : name;
+    console.log(`${counts.failed === 0 ? "ok    " : "FAILED"} ${shown.padEnd(76)} ${inWords(counts)} (${seconds} s)`);
+  }
+  console.log(`\n${inWords(total)}`);
+  return total.failed === 0;
+}
+
+function inWords({ passed, failed, skipped }) {
+  return `${passed} passed, ${failed} failed${skipped > 0 ? `, ${skipped} skipped` : ""}`;
+}
+
+await main(import.meta.url, async () => {
+  const wanted = process.argv.slice(2);
+  const unknown = wanted.find((name) => !(name in parts));
+  if (unknown !== undefined) throw new Failure(`no part of the tests is named ${unknown}: ${Object.keys(parts).join(", ")}`);
+  await setUp();
+  for (const name of wanted.length > 0 ? wanted : Object.keys(parts)) await parts[name]();
+  if (!summary()) process.exitCode = 1;
+});
