@@ -97,6 +97,7 @@
 //! - Rezaie and Li (12): the `x_k` on the right-hand side is `x_{k-1}`.
 #![forbid(unsafe_code)]
 
+pub mod conditionally_markov;
 pub mod error;
 pub mod value;
 
@@ -113,6 +114,7 @@ pub mod predictor;
 pub mod pointer;
 pub mod snapshot;
 
+pub use conditionally_markov::ConditionallyMarkovSequence;
 pub use error::{Code, Error, Result};
 pub use math::gaussian::Gaussian;
 pub use model::destination::Destination;
