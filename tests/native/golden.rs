@@ -3,14 +3,20 @@
 use crate::support::{golden, numbers, predictor, relative, scenario_of};
 use serde_json::Value as Json;
 
-const CASES: [&str; 7] = [
+const CASES: [&str; 13] = [
     "brownian2d",
+    "ca2d",
+    "custom2d",
     "cv2d-expiring-nodes",
     "cv2d-horizon",
     "cv2d-pixels",
     "cv2d-position",
     "cv2d-position-velocity",
     "cv2d-same-timestamp",
+    "cv3d-position",
+    "erv2d",
+    "iou2d",
+    "mean-reverting2d",
 ];
 
 fn rows(json: &Json) -> Vec<Vec<f64>> {
@@ -37,7 +43,7 @@ fn every_method_reproduces_every_case() {
             }
         }
     }
-    assert!(compared > 400, "only {compared} comparisons");
+    assert!(compared > 800, "only {compared} comparisons");
 }
 
 #[test]
