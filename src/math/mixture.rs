@@ -16,24 +16,27 @@ use super::lanes::{Block, Lanes, Shift, WIDTH};
 /// Half of `log2(e)`: a density's exponent in base 2 is this times the squared distance.
 pub const HALF_LOG2_E: f64 = 0.5 * std::f64::consts::LOG2_E;
 
+/// The most axes. Terms have room for as many; what a term over fewer axes holds beyond them is not read.
+pub const AXES: usize = 3;
+
 /// Where the terms are evaluated.
 #[derive(Clone, Copy, Debug)]
-pub struct Places<'a, const D: usize> {
-    /// Coordinates, a list for each axis.
-    pub coordinates: [&'a [Block]; D],
+pub struct Places<'a> {
+    /// Coordinates, a list for each axis; those of axes that there are not are empty.
+    pub coordinates: [&'a [Block]; AXES],
     /// Variances of the endpoint in each axis, beyond those of the terms; for [`Own`] terms only, else empty.
-    pub variances: [&'a [Block]; D],
+    pub variances: [&'a [Block]; AXES],
     /// What [`Ball`] terms are expanded about.
-    pub origin: [f64; D],
+    pub origin: [f64; AXES],
 }
 
-/// One term, `factor * 2^exponent` at every place.
+/// One term, `factor * 2^exponent` at every place, over `D` axes.
 pub trait Term<const D: usize>: Copy {
     /// What is the same for every term at one block of places.
     type Place: Copy;
 
     /// The places of block `i`; none beyond the end.
-    fn place(places: &Places<'_, D>, i: usize) -> Option<Self::Place>;
+    fn place(places: &Places<'_>, i: usize) -> Option<Self::Place>;
 
     /// The exponent, in base 2.
     fn exponent(&self, place: &Self::Place) -> Lanes;
@@ -44,12 +47,12 @@ pub trait Term<const D: usize>: Copy {
 
 /// A quadratic with one curvature for all axes, expanded about the origin of the [`Places`]: the cheapest form, for where
 /// its terms do not cancel.
-#[derive(Clone, Copy, Debug)]
-pub struct Ball<const D: usize> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ball {
     /// The factor of the squared distance from the origin.
     pub curvature: f64,
     /// The factors of the offsets from the origin.
-    pub slope: [f64; D],
+    pub slope: [f64; AXES],
     /// What is left of the exponent.
     pub constant: f64,
     /// Before the power.
@@ -57,14 +60,14 @@ pub struct Ball<const D: usize> {
 }
 
 /// Any quadratic, about a centre of its own: `c + sum_k d_k (b_k + sum_{j >= k} A_kj d_j)`, `d = a - centre`.
-#[derive(Clone, Copy, Debug)]
-pub struct Ellipsoid<const D: usize> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ellipsoid {
     /// What offsets are measured from.
-    pub center: [f64; D],
+    pub center: [f64; AXES],
     /// `A`, the upper triangle, its off-diagonal entries doubled; the rest is not read.
-    pub curvature: [[f64; D]; D],
+    pub curvature: [[f64; AXES]; AXES],
     /// `b`.
-    pub slope: [f64; D],
+    pub slope: [f64; AXES],
     /// `c`.
     pub constant: f64,
     /// Before the power.
@@ -72,16 +75,16 @@ pub struct Ellipsoid<const D: usize> {
 }
 
 /// The ratio of two Gaussians without correlation between axes, to each of whose variances every place adds its own.
-#[derive(Clone, Copy, Debug)]
-pub struct Own<const D: usize> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Own {
     /// The numerator's mean.
-    pub mean: [f64; D],
+    pub mean: [f64; AXES],
     /// The numerator's variances.
-    pub variance: [f64; D],
+    pub variance: [f64; AXES],
     /// The denominator's mean.
-    pub start_mean: [f64; D],
+    pub start_mean: [f64; AXES],
     /// The denominator's variances.
-    pub start_variance: [f64; D],
+    pub start_variance: [f64; AXES],
     /// What is added to the exponent.
     pub constant: f64,
     /// What multiplies the ratio.
@@ -112,12 +115,12 @@ fn own_axis(
 
 macro_rules! terms {
     ($d:literal: $first:literal $($rest:literal)*, $([$row:literal $($column:literal)*])*) => {
-        impl Term<$d> for Ball<$d> {
+        impl Term<$d> for Ball {
             /// Offsets from the origin, and their squared length.
             type Place = ([Lanes; $d], Lanes);
 
             #[inline(always)]
-            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
                 let offsets = [
                     at(places.coordinates[$first], i)? - Lanes::splat(places.origin[$first]),
                     $(at(places.coordinates[$rest], i)? - Lanes::splat(places.origin[$rest])),*
@@ -136,16 +139,16 @@ macro_rules! terms {
 
             #[inline(always)]
             fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (self.exponent(place), Lanes::splat(self.factor))
+                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
             }
         }
 
-        impl Term<$d> for Ellipsoid<$d> {
+        impl Term<$d> for Ellipsoid {
             /// Coordinates.
             type Place = [Lanes; $d];
 
             #[inline(always)]
-            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
                 Some([at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*])
             }
 
@@ -165,16 +168,16 @@ macro_rules! terms {
 
             #[inline(always)]
             fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (self.exponent(place), Lanes::splat(self.factor))
+                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
             }
         }
 
-        impl Term<$d> for Own<$d> {
+        impl Term<$d> for Own {
             /// Coordinates, and their variances.
             type Place = ([Lanes; $d], [Lanes; $d]);
 
             #[inline(always)]
-            fn place(places: &Places<'_, $d>, i: usize) -> Option<Self::Place> {
+            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
                 Some((
                     [at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*],
                     [at(places.variances[$first], i)?, $(at(places.variances[$rest], i)?),*],
@@ -183,7 +186,7 @@ macro_rules! terms {
 
             #[inline(always)]
             fn exponent(&self, place: &Self::Place) -> Lanes {
-                self.exponent_and_factor(place).0
+                <Self as Term<$d>>::exponent_and_factor(self, place).0
             }
 
             // over the common denominator, so that one division and one root serve all axes
@@ -223,7 +226,7 @@ terms!(3: 0 1 2, [0 1 2] [1 2] [2]);
 #[inline(never)]
 pub fn weigh<const D: usize, T: Term<D>>(
     terms: &[T],
-    places: &Places<'_, D>,
+    places: &Places<'_>,
     shift: f64,
     priors: &[Block],
     weights: &mut [Block],
@@ -252,7 +255,7 @@ pub fn weigh<const D: usize, T: Term<D>>(
 
 /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
 #[inline(never)]
-pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_, D>, logs: &mut [Block]) {
+pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, logs: &mut [Block]) {
     let none = Shift::by(0.0);
     for (i, log) in logs.iter_mut().enumerate() {
         let (Some(place), Some(first)) = (T::place(places, i), terms.first()) else { break };
@@ -285,6 +288,11 @@ mod tests {
         (-0.5 * (x - mean) * (x - mean) / variance).exp() / (std::f64::consts::TAU * variance).sqrt()
     }
 
+    /// What lies beyond the axes that there are must not matter.
+    const fn padded(of: [f64; 2]) -> [f64; AXES] {
+        [of[0], of[1], f64::NAN]
+    }
+
     /// `N(a; m, v) / N(a; u, w)` for two axes in each of the three forms.
     struct Ratio {
         m: [f64; 2],
@@ -298,37 +306,37 @@ mod tests {
             (0..2).map(|k| gaussian(a[k], self.m[k], self.v) / gaussian(a[k], self.u[k], self.w)).product()
         }
 
-        fn ball(&self, origin: [f64; 2]) -> Ball<2> {
+        fn ball(&self, origin: [f64; AXES]) -> Ball {
             let h = HALF_LOG2_E;
             let (p, g) = ([0, 1].map(|k| self.m[k] - origin[k]), [0, 1].map(|k| self.u[k] - origin[k]));
             let square = |x: [f64; 2]| x[0] * x[0] + x[1] * x[1];
             Ball {
                 curvature: h * (1.0 / self.w - 1.0 / self.v),
-                slope: [0, 1].map(|k| 2.0 * h * (p[k] / self.v - g[k] / self.w)),
+                slope: padded([0, 1].map(|k| 2.0 * h * (p[k] / self.v - g[k] / self.w))),
                 constant: h * (square(g) / self.w - square(p) / self.v),
                 factor: self.w / self.v,
             }
         }
 
-        fn ellipsoid(&self) -> Ellipsoid<2> {
+        fn ellipsoid(&self) -> Ellipsoid {
             let h = HALF_LOG2_E;
             let a = h * (1.0 / self.w - 1.0 / self.v);
             let apart = [0, 1].map(|k| self.m[k] - self.u[k]);
             Ellipsoid {
-                center: self.m,
-                curvature: [[a, 0.0], [0.0, a]],
-                slope: apart.map(|x| 2.0 * h * x / self.w),
+                center: padded(self.m),
+                curvature: [padded([a, 0.0]), padded([0.0, a]), [f64::NAN; AXES]],
+                slope: padded(apart.map(|x| 2.0 * h * x / self.w)),
                 constant: h * (apart[0] * apart[0] + apart[1] * apart[1]) / self.w,
                 factor: self.w / self.v,
             }
         }
 
-        fn own(&self, own: f64) -> Own<2> {
+        fn own(&self, own: f64) -> Own {
             Own {
-                mean: self.m,
-                variance: [self.v - own; 2],
-                start_mean: self.u,
-                start_variance: [self.w - own; 2],
+                mean: padded(self.m),
+                variance: padded([self.v - own; 2]),
+                start_mean: padded(self.u),
+                start_variance: padded([self.w - own; 2]),
                 constant: 0.0,
                 factor: 1.0,
             }
@@ -344,8 +352,8 @@ mod tests {
     #[test]
     fn each_form_of_a_ratio_of_densities_gives_the_sum_over_them() {
         let (x, y, s) = (line(1.5), line(-0.7), vec![[2.5; WIDTH]; 3]);
-        let origin = [0.3, -0.2];
-        let places = Places { coordinates: [x.as_slice(), &y], variances: [s.as_slice(), &s], origin };
+        let origin = [0.3, -0.2, f64::NAN];
+        let places = Places { coordinates: [x.as_slice(), &y, &[]], variances: [s.as_slice(), &s, &[]], origin };
         let priors = vec![[0.25; WIDTH]; 3];
         let expect = |found: &[Block], total: f64, what: &str| {
             let mut sum = 0.0;
@@ -358,14 +366,14 @@ mod tests {
             assert!((total / sum - 1.0).abs() < 1e-13, "{what}");
         };
         let mut weights = vec![[0.0; WIDTH]; 3];
-        let total = weigh(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
+        let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ball");
-        let total = weigh(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, 0.0, &priors, &mut weights);
+        let total = weigh::<2, _>(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ellipsoid");
-        let total = weigh(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
+        let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
-        log2_sums(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
+        log2_sums::<2, _>(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
         for (log, weight) in logs.as_flattened().iter().zip(weights.as_flattened()) {
             assert!((log - (weight / 0.25).log2()).abs() < 1e-12);
         }
@@ -381,10 +389,10 @@ mod tests {
             factor: 0.5,
         };
         let ones = [[2.0; WIDTH]];
-        let places = Places { coordinates: [&ones[..]; 3], variances: [&[]; 3], origin: [0.0; 3] };
+        let places = Places { coordinates: [&ones[..]; AXES], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut weights = [[0.0; WIDTH]];
         // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
-        let total = weigh(&[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let total = weigh::<3, _>(&[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
         let expected = 0.5 * (-5.25f64).exp2();
         assert!((weights[0][7] / expected - 1.0).abs() < 1e-14 && (total / (8.0 * expected) - 1.0).abs() < 1e-14);
     }
@@ -392,13 +400,13 @@ mod tests {
     #[test]
     fn the_shift_changes_no_digit_of_any_weight() {
         let (x, y) = (line(1.5), line(-0.7));
-        let places = Places { coordinates: [x.as_slice(), &y], variances: [&[]; 2], origin: [0.0; 2] };
+        let places = Places { coordinates: [x.as_slice(), &y, &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let terms = RATIOS.each_ref().map(Ratio::ellipsoid);
         let priors = vec![[1.0; WIDTH]; 3];
         let (mut plain, mut shifted) = (vec![[0.0; WIDTH]; 3], vec![[0.0; WIDTH]; 3]);
-        let total = weigh(&terms, &places, 0.0, &priors, &mut plain);
+        let total = weigh::<2, _>(&terms, &places, 0.0, &priors, &mut plain);
         for shift in [-50.0, 13.0, 400.0] {
-            let other = weigh(&terms, &places, shift, &priors, &mut shifted);
+            let other = weigh::<2, _>(&terms, &places, shift, &priors, &mut shifted);
             assert_eq!(other * shift.exp2(), total);
             for (a, b) in plain.as_flattened().iter().zip(shifted.as_flattened()) {
                 assert_eq!(*a, b * shift.exp2());
@@ -408,11 +416,11 @@ mod tests {
 
     #[test]
     fn logs_neither_overflow_nor_vanish() {
-        let ball = |constant| Ball { curvature: -1.0, slope: [0.0], constant, factor: 2.0 };
+        let ball = |constant| Ball { curvature: -1.0, slope: [0.0; AXES], constant, factor: 2.0 };
         let x = [[0.0, 1.0, 1e3, 1e6, 0.0, 0.0, 0.0, 0.0]];
-        let places = Places { coordinates: [&x[..]], variances: [&[]], origin: [0.0] };
+        let places = Places { coordinates: [&x[..], &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut logs = [[0.0; WIDTH]];
-        log2_sums(&[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
+        log2_sums::<1, _>(&[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
         assert_eq!(logs[0][..4], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
     }
 }
