@@ -221,3 +221,126 @@ fn legendre(degree: usize, x: f64) -> (f64, f64) {
     }
     (value, degree as f64 * (before - x * value) / (1.0 - x * x))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(json: &str) -> Result<Quadrature> {
+        Quadrature::read(&Node::root(&serde_json::from_str(json).unwrap(), "quadrature"))
+    }
+
+    fn integral(rule: &Rule, f: impl Fn(f64) -> f64) -> f64 {
+        rule.nodes.iter().zip(&rule.weights).map(|(x, w)| w * f(*x)).sum()
+    }
+
+    #[test]
+    fn each_rule_is_exact_for_the_polynomials_that_it_should_be() {
+        let rules = [
+            (Quadrature::Simpson { points: 3 }, 3),
+            (Quadrature::Simpson { points: 1001 }, 3),
+            (Quadrature::Trapezoid { points: 2 }, 1),
+            (Quadrature::GaussLegendre { points: 1 }, 1),
+            (Quadrature::GaussLegendre { points: 2 }, 3),
+            (Quadrature::GaussLegendre { points: 9 }, 17),
+            (Quadrature::GaussLegendre { points: 1001 }, 30),
+        ];
+        for (quadrature, degree) in rules {
+            let rule = quadrature.rule();
+            for power in 0..=degree {
+                let found = integral(&rule, |x| x.powi(power));
+                assert!((found * f64::from(power + 1) - 1.0).abs() < 2e-14, "{quadrature:?}, x^{power}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn gauss_and_legendre_s_nodes_are_those_of_the_tables() {
+        // Abramowitz and Stegun, table 25.4, n = 5, moved to [0, 1]
+        let rule = Quadrature::GaussLegendre { points: 5 }.rule();
+        let expected = [
+            (0.0, 0.568_888_888_888_888_9),
+            (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+            (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        ];
+        for (i, (node, weight)) in expected.into_iter().enumerate() {
+            assert!((rule.nodes[2 + i] - 0.5 * (1.0 + node)).abs() < 1e-15);
+            assert!((rule.nodes[2 - i] - 0.5 * (1.0 - node)).abs() < 1e-15);
+            assert!((rule.weights[2 + i] - 0.5 * weight).abs() < 1e-15);
+            assert!((rule.weights[2 - i] - 0.5 * weight).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn random_nodes_follow_from_their_seed_and_converge() {
+        let of = |seed| Quadrature::MonteCarlo { points: 1001, seed }.rule();
+        assert_eq!(of(3), of(3));
+        assert_ne!(of(3), of(4));
+        assert!(of(3).nodes.is_sorted());
+        // the mean of x^2 is 1/3, with a deviation of 0.0094
+        assert!((integral(&of(3), |x| x * x) - 1.0 / 3.0).abs() < 0.03);
+    }
+
+    #[test]
+    fn the_normal_rules_have_the_moments_of_the_normal_density() {
+        let rules = [
+            (Quadrature::Simpson { points: 31 }, 2e-3),
+            (Quadrature::Trapezoid { points: 31 }, 2e-3),
+            (Quadrature::GaussLegendre { points: 31 }, 2e-3),
+            (Quadrature::MonteCarlo { points: 1001, seed: 0 }, 0.2),
+        ];
+        for (quadrature, tolerance) in rules {
+            let rule = quadrature.normal_rule();
+            for (power, expected) in [(0, 1.0), (1, 0.0), (2, 1.0)] {
+                let found = integral(&rule, |z| z.powi(power));
+                assert!((found - expected).abs() < tolerance, "{quadrature:?}, z^{power}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_read_is_written_again() {
+        for json in [
+            r#"{"rule": "simpson", "points": 15.0}"#,
+            r#"{"rule": "trapezoid", "points": 2.0}"#,
+            r#"{"rule": "gaussLegendre", "points": 1001.0}"#,
+            r#"{"rule": "monteCarlo", "points": 100.0, "seed": 7.0}"#,
+        ] {
+            assert_eq!(read(json).unwrap().to_value(), serde_json::from_str(json).unwrap());
+        }
+        assert_eq!(read("{}").unwrap(), Quadrature::Simpson { points: 15 });
+        assert_eq!(read(r#"{"rule": "monteCarlo"}"#).unwrap(), Quadrature::MonteCarlo { points: 15, seed: 0 });
+    }
+
+    #[test]
+    fn bad_rules_are_refused_by_name() {
+        let cases = [
+            (
+                r#"{"points": 14}"#,
+                "out-of-range",
+                "quadrature.points: must be odd: Simpson's rule takes pairs of intervals, got 14",
+            ),
+            (r#"{"points": 1}"#, "out-of-range", "quadrature.points: must be a whole number from 3 to 1001, got 1"),
+            (r#"{"points": 1003}"#, "too-large", "quadrature.points: must be a whole number from 3 to 1001, got 1003"),
+            (
+                r#"{"rule": "trapezoid", "points": 2.5}"#,
+                "out-of-range",
+                "quadrature.points: must be a whole number from 2 to 1001, got 2.5",
+            ),
+            (
+                r#"{"seed": 1}"#,
+                "unknown-key",
+                "quadrature.seed: unknown key \"seed\", expected one of \"rule\", \"points\"",
+            ),
+            (
+                r#"{"rule": "romberg"}"#,
+                "out-of-range",
+                "quadrature.rule: must be one of \"simpson\", \"trapezoid\", \"gaussLegendre\", \"monteCarlo\", got \"romberg\"",
+            ),
+        ];
+        for (json, code, text) in cases {
+            let error = read(json).expect_err(json);
+            assert_eq!((error.code().as_str(), error.to_string().as_str()), (code, text));
+        }
+    }
+}

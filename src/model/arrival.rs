@@ -255,3 +255,154 @@ fn time(node: &Node<'_>) -> Result<f64> {
         Err(node.error(Code::OutOfRange, "must be greater than 0 and at most 1e12 seconds"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::log_sum_exp::log_sum_exp;
+
+    const RULES: [Quadrature; 4] = [
+        Quadrature::Simpson { points: 31 },
+        Quadrature::Trapezoid { points: 31 },
+        Quadrature::GaussLegendre { points: 31 },
+        Quadrature::MonteCarlo { points: 1001, seed: 5 },
+    ];
+    const EACH: [&str; 5] = [
+        r#"{"type": "uniform", "from": 0.5, "to": 4.0}"#,
+        r#"{"type": "discrete", "times": [1.0, 3.0, 2.0], "weights": [1.0, 0.0, 3.0]}"#,
+        r#"{"type": "logNormal", "median": 2.0, "spread": 0.25}"#,
+        r#"{"type": "fitts", "intercept": 0.5, "slope": 0.25, "spread": 0.1}"#,
+        r#"{"type": "horizon", "from": 0.05, "to": 0.5}"#,
+    ];
+
+    fn read(json: &str) -> Result<Arrival> {
+        Arrival::read(&Node::root(&serde_json::from_str(json).unwrap(), "arrival"))
+    }
+
+    fn mean(grid: &Grid, f: impl Fn(f64) -> f64) -> f64 {
+        grid.times.iter().zip(&grid.log_weights).map(|(t, w)| w.exp() * f(*t)).sum()
+    }
+
+    #[test]
+    fn what_is_read_is_written_again() {
+        for json in EACH {
+            assert_eq!(read(json).unwrap().to_value(), serde_json::from_str(json).unwrap());
+        }
+    }
+
+    #[test]
+    fn every_grid_has_positive_times_and_weights_that_sum_to_one() {
+        for json in EACH {
+            for rule in &RULES {
+                let grid = read(json).unwrap().grid(rule, 700.0, 100.0);
+                assert_eq!(grid.times.len(), grid.log_weights.len());
+                assert!(grid.times.iter().all(|t| *t > 0.0 && t.is_finite()));
+                assert!(log_sum_exp(&grid.log_weights).abs() < 1e-12, "{json}, {rule:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_horizon_is_a_time_to_go_and_only_fitts_needs_a_distance() {
+        let arrivals = EACH.map(|json| read(json).unwrap());
+        assert_eq!(arrivals.each_ref().map(Arrival::is_horizon), [false, false, false, false, true]);
+        assert_eq!(arrivals.each_ref().map(Arrival::needs_distance), [false, false, false, true, false]);
+    }
+
+    #[test]
+    fn moments_are_those_of_the_prior() {
+        for rule in &RULES {
+            let drawn = matches!(rule, Quadrature::MonteCarlo { .. });
+            let near = |found: f64, expected: f64| {
+                assert!((found - expected).abs() < if drawn { 0.1 } else { 1e-3 }, "{rule:?}: {found}, not {expected}");
+            };
+            let uniform = read(EACH[0]).unwrap().grid(rule, 0.0, 1.0);
+            near(mean(&uniform, |t| t), 2.25);
+            let log_normal = read(EACH[2]).unwrap().grid(rule, 0.0, 1.0);
+            near(mean(&log_normal, f64::ln), 2f64.ln());
+            near(mean(&log_normal, |t| t), 2.0 * (0.25f64 * 0.25 / 2.0).exp());
+            // log2(700 / 100 + 1) = 3 bits: 0.5 + 3 * 0.25
+            let fitts = read(EACH[3]).unwrap().grid(rule, 700.0, 100.0);
+            near(mean(&fitts, f64::ln), 1.25f64.ln());
+        }
+    }
+
+    #[test]
+    fn discrete_times_stay_as_they_are_given() {
+        let grid = read(EACH[1]).unwrap().grid(&Quadrature::default(), 0.0, 1.0);
+        assert_eq!(grid.times, [1.0, 3.0, 2.0]);
+        assert_eq!(grid.log_weights, [0.25f64.ln(), f64::NEG_INFINITY, 0.75f64.ln()]);
+        let equal = read(r#"{"type": "discrete", "times": [1, 2, 3, 4]}"#).unwrap();
+        assert_eq!(equal.grid(&Quadrature::default(), 0.0, 1.0).log_weights, [0.25f64.ln(); 4]);
+    }
+
+    #[test]
+    fn fitts_s_law_is_finite_for_a_target_without_size_and_for_no_distance() {
+        let fitts = read(EACH[3]).unwrap();
+        for (distance, size) in [(700.0, 0.0), (0.0, 0.0), (0.0, 100.0)] {
+            let grid = fitts.grid(&Quadrature::default(), distance, size);
+            assert!(grid.times.iter().all(|t| *t > 0.0 && t.is_finite()), "{distance}, {size}");
+        }
+    }
+
+    #[test]
+    fn bad_priors_are_refused_by_name() {
+        let cases = [
+            (r#"{}"#, "missing-key", "arrival.type: missing key \"type\""),
+            (
+                r#"{"type": "uniform", "from": 0, "to": 1}"#,
+                "out-of-range",
+                "arrival.from: must be greater than 0 and at most 1e12 seconds, got 0",
+            ),
+            (
+                r#"{"type": "uniform", "from": 1, "to": 1e13}"#,
+                "out-of-range",
+                "arrival.to: must be greater than 0 and at most 1e12 seconds, got 10000000000000",
+            ),
+            (
+                r#"{"type": "horizon", "from": 2, "to": 1}"#,
+                "out-of-range",
+                "arrival.to: must be greater than \"from\", which is 2, got 1",
+            ),
+            (r#"{"type": "uniform", "from": 1}"#, "missing-key", "arrival.to: missing key \"to\""),
+            (
+                r#"{"type": "discrete", "times": []}"#,
+                "wrong-length",
+                "arrival.times: must have at least one time, got []",
+            ),
+            (
+                r#"{"type": "discrete", "times": [1, 2], "weights": [1]}"#,
+                "wrong-length",
+                "arrival.weights: must have 2 numbers, has 1, got [1]",
+            ),
+            (
+                r#"{"type": "discrete", "times": [1, 2], "weights": [0, 0]}"#,
+                "out-of-range",
+                "arrival.weights: must have a finite sum greater than 0, got [0, 0]",
+            ),
+            (
+                r#"{"type": "discrete", "times": [1, 2], "weights": [1, -1]}"#,
+                "out-of-range",
+                "arrival.weights[1]: must be at least 0, got -1",
+            ),
+            (
+                r#"{"type": "logNormal", "median": 1, "spread": 11}"#,
+                "out-of-range",
+                "arrival.spread: must be greater than 0 and at most 10, got 11",
+            ),
+            (
+                r#"{"type": "fitts", "intercept": 0.1, "slope": -1, "spread": 0.1}"#,
+                "out-of-range",
+                "arrival.slope: must be at least 0, got -1",
+            ),
+        ];
+        for (json, code, text) in cases {
+            let error = read(json).expect_err(json);
+            assert_eq!((error.code().as_str(), error.to_string().as_str()), (code, text));
+        }
+        let many = format!(r#"{{"type": "discrete", "times": {:?}}}"#, vec![1.0; MAX_POINTS + 1]);
+        let error = read(&many).unwrap_err();
+        let text = "arrival.times: must have at most 1001 times, has 1002, got [1, 1, 1, 1, ...]";
+        assert_eq!((error.code().as_str(), error.to_string().as_str()), ("too-large", text));
+    }
+}

@@ -4,7 +4,8 @@
 //! dx = dw          F = 1          M = 0          Q = noise^2 h
 //! ```
 //!
-//! Source: Ardeshiri et al., section 2; the Brownian bridge of the bridging literature.
+//! Source: Liang (1) with `F` the identity; tied at both ends it is the Brownian bridge. `noise` is in units of length per
+//! second^0.5.
 
 use super::{AxisTransition, MotionModel, axis_value};
 use crate::value::Value;

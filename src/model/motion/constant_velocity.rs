@@ -5,7 +5,7 @@
 //! dv = dw              | 0  1 |                             | h^2/2  h     |
 //! ```
 //!
-//! Source: Liang et al., section V; Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and
+//! Source: Liang et al., after (1); Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and
 //! Navigation", 6.2.2 (the continuous white-noise acceleration model). `noise` is in units of length per second^1.5.
 
 use super::{AxisTransition, MotionModel, axis_value};

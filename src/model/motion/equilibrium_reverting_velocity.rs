@@ -7,12 +7,12 @@
 //! F = exp(A h)      B(h) = int_0^h exp(A u) B du      Q(h) = int_0^h exp(A u) W exp(A' u) du
 //! ```
 //!
-//! Source: Liang et al., section II (the equilibrium reverting velocity model); Ahmad et al., IEEE Transactions on
-//! Cybernetics 46 (2016).
+//! Source: a model of the Ornstein-Uhlenbeck type as in Liang's [13], Ahmad et al., "Bayesian intent prediction in object
+//! tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 //!
 //! The closed forms differ between the underdamped, critical and overdamped spring, and each of them cancels somewhere
 //! (short steps, near the critical damping, almost no damping). [`VanLoan`] is as accurate in all of them, so it is the
-//! one form here; the tests compare it with the closed forms, computed with 50 digits.
+//! one form here; the tests compare it with the closed forms, computed with 150 digits.
 
 use super::{AxisTransition, MotionModel, axis_value};
 use crate::error::Result;

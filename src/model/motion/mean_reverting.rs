@@ -4,8 +4,8 @@
 //! dx = rate (c - x) dt + dw        F = e^-rh      B = 1 - e^-rh      Q = noise^2 (1 - e^-2rh) / (2 r),   r = rate
 //! ```
 //!
-//! Source: Liang et al., section II (mean-reverting diffusion); Ahmad et al., "Intent inference for hand pointing
-//! gesture-based interactions in vehicles", IEEE Transactions on Cybernetics 46 (2016).
+//! Source: Liang et al., after (1) (the Ornstein-Uhlenbeck process), and their [13], Ahmad et al., "Bayesian intent
+//! prediction in object tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 
 use super::{AxisTransition, MotionModel, axis_value};
 use crate::error::Result;

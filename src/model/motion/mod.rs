@@ -363,3 +363,6 @@ fn axis_value(axes: &[f64]) -> Value {
         _ => Value::numbers(axes),
     }
 }
+
+#[cfg(test)]
+mod tests;
