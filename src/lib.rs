@@ -100,6 +100,8 @@
 pub mod conditionally_markov;
 pub mod error;
 pub mod value;
+#[cfg(feature = "wasm")]
+mod wasm;
 
 pub mod math;
 pub mod model;

@@ -1,0 +1,68 @@
+/**
+ * The only importer of the generated code: loads it, once, and hands out what it exports.
+ *
+ * @module
+ */
+import start, { Engine, initSync as startNow, pointer_scenario, type InitOutput } from "./generated/whither.js";
+import { WhitherError } from "./error.js";
+import { compiled, compiledNow, unavailable, type CompiledModule, type WasmSource } from "./source.js";
+
+export { Engine, pointer_scenario };
+
+let running: InitOutput | undefined;
+let loading: Promise<void> | undefined;
+
+/**
+ * Loads the WebAssembly from what `source` gives. Everyone who calls while it loads, or later, gets the same promise; after
+ * a failure the next call tries again.
+ */
+export function load(source: () => WasmSource): Promise<void> {
+  loading ??= instantiate(source).catch((error: unknown) => {
+    loading = undefined;
+    throw error;
+  });
+  return loading;
+}
+
+async function instantiate(source: () => WasmSource): Promise<void> {
+  if (running) return;
+  const module = await compiled(source());
+  try {
+    running = await start({ module_or_path: module });
+  } catch (error) {
+    throw unfit(error);
+  }
+}
+
+/**
+ * Loads the WebAssembly without waiting, for those who have compiled it already, or have its bytes where the thread may be
+ * blocked. Does nothing where it is loaded.
+ *
+ * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm`.
+ * @throws {@link WhitherError} `wasm-unavailable`, `wrong-type`.
+ */
+export function initSync(options: { module: CompiledModule | ArrayBuffer | ArrayBufferView }): void {
+  if (running) return;
+  const module = compiledNow(options?.module);
+  try {
+    running = startNow({ module });
+  } catch (error) {
+    throw unfit(error);
+  }
+}
+
+function unfit(error: unknown): WhitherError {
+  const reason = error instanceof Error ? error.message : String(error);
+  return unavailable(`the module is not this version's whither.wasm: ${reason}`, error);
+}
+
+/** The memory of the running module. It is another buffer each time the memory has grown. */
+export function memory(): ArrayBuffer {
+  return loaded().memory.buffer;
+}
+
+/** Throws where the WebAssembly is not loaded. */
+export function loaded(): InitOutput {
+  if (running) return running;
+  throw new WhitherError("not-initialised", "", "call init() and wait for it first: await init()");
+}

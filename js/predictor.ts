@@ -1,0 +1,384 @@
+/// <reference lib="esnext.disposable" preserve="true" />
+import { WhitherError } from "./error.js";
+import { Engine, loaded, memory } from "./glue.js";
+import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
+import { decodeTree, encode, isList, MOST_ITEMS } from "./value.js";
+
+/**
+ * One observed position: a number for each observed axis, as an array, a typed array or anything with `length` and indices.
+ * An explicit `null` or `undefined` is a missing axis; NaN is an error.
+ */
+export type Position = ArrayLike<number | null | undefined>;
+
+/** What belongs to one observation. */
+export interface ObserveOptions {
+  /**
+   * The noise of this one observation in place of the scenario's `observation.noise`, in the same forms: a deviation, one for
+   * each axis, or a covariance matrix.
+   */
+  readonly noise?: number | Vector | Matrix | undefined;
+}
+
+/** The most probable destination. */
+export interface Best {
+  /** Its id. */
+  readonly id: string;
+  /** Its place in {@link Predictor.destinations}. */
+  readonly index: number;
+  /** Its probability. */
+  readonly probability: number;
+}
+
+/** When the object arrives: the posterior of the arrival time. */
+export interface ArrivalTime {
+  /** The nodes, in seconds on the clock of the observations. */
+  readonly times: Float64Array;
+  /** The probability of each node; they sum to 1. */
+  readonly probabilities: Float64Array;
+  /** The mean, in seconds on the same clock. */
+  readonly mean: number;
+  /** The standard deviation, in seconds. */
+  readonly deviation: number;
+}
+
+/** How long it takes until the object enters its target, in seconds from the last observation. */
+export interface Remaining {
+  /** The expectation. */
+  readonly mean: number;
+  /** In a tenth of all movements less time remains than this. */
+  readonly low: number;
+  /** In a tenth of all movements more time remains than this. */
+  readonly high: number;
+}
+
+/** A Gaussian density of the state: all positions, then all velocities, then all accelerations. */
+export interface Gaussian {
+  /** The mean, one number for each of the `s` states. */
+  readonly mean: Float64Array;
+  /** The covariance, `s * s` numbers, row by row. */
+  readonly covariance: Float64Array;
+}
+
+/** All that a predictor knows, as plain JSON. It is for {@link Predictor.restore} to read. */
+export interface Snapshot {
+  /** The version of the snapshot's form. */
+  readonly version: number;
+  readonly [key: string]: unknown;
+}
+
+/**
+ * Predicts the destination of one moving thing from its positions.
+ *
+ * Everything here that can fail throws a {@link WhitherError}, and leaves the predictor as it was. After {@link free} every use
+ * throws with the code `freed`.
+ *
+ * @example
+ * ```ts
+ * const predictor = new Predictor({
+ *   motion: { type: "constantVelocity", dimensions: 2, noise: 3000 },
+ *   observation: { noise: 1.5 },
+ *   initial: { velocity: 1000 },
+ *   arrival: { type: "horizon", from: 0.05, to: 0.5 },
+ *   destinations: [
+ *     { id: "radio", center: [100, 80], size: [90, 90] },
+ *     { id: "map", center: [600, 300], size: [90, 90] },
+ *   ],
+ * });
+ * predictor.observe(0.0, [300, 500]);
+ * predictor.observe(0.016, [306, 496]);
+ * const [radio, map] = predictor.probabilities();
+ * predictor.free();
+ * ```
+ */
+export class Predictor {
+  #engine: Engine | null;
+  #view = new Float64Array(0);
+
+  /**
+   * @param scenario - The whole configuration. It is copied: changing the object later changes nothing.
+   * @throws {@link WhitherError} with the path of the field where the scenario is bad; `not-initialised` before `init()`.
+   */
+  constructor(scenario: Scenario) {
+    loaded();
+    // Only `clone` and `restore` have an engine to hand in: users never meet one.
+    const given: unknown = scenario;
+    this.#engine = given instanceof Engine ? given : new Engine(...encode(given));
+  }
+
+  /**
+   * Takes in one observation.
+   *
+   * @param time - Seconds, at least the last observation's.
+   * @param position - A number for each observed axis; `null` or `undefined` for one that is missing.
+   * @param options - What belongs to this observation alone.
+   * @throws {@link WhitherError} `time-not-increasing`, `wrong-type`, `wrong-length`, `not-finite`, `not-positive-definite`. The
+   * state is then what it was, and the next good observation works.
+   */
+  observe(time: number, position: Position, options?: ObserveOptions): void {
+    // The way of nearly all observations allocates nothing; the other reads everything, and finds what is wrong with it.
+    const noise = options?.noise;
+    const count = position?.length;
+    if (typeof time === "number" && (count === 1 || count === 2 || count === 3) && noise === undefined) {
+      const x = position[0];
+      const y = count > 1 ? position[1] : 0;
+      const z = count > 2 ? position[2] : 0;
+      if (typeof x === "number" && typeof y === "number" && typeof z === "number") {
+        this.#live().observe(time, count, x, y, z);
+        return;
+      }
+    }
+    const list = !isList(position) && typeof position === "object" && count <= MOST_ITEMS;
+    const observation = encode({ time, position: list ? Array.from(position) : position, noise });
+    this.#live().observe_in_full(...observation);
+  }
+
+  /**
+   * The probability of each destination, in the order of {@link destinations}. They sum to `1 - none`; before the first
+   * observation they are the prior.
+   *
+   * @param into - Where to write them, so that nothing is allocated: as long as there are destinations.
+   * @returns `into`, or a new array.
+   * @throws {@link WhitherError} `wrong-type`, `wrong-length`.
+   */
+  probabilities(into?: Float64Array): Float64Array {
+    const engine = this.#live();
+    return copy(this.#look(engine, engine.probabilities()), into);
+  }
+
+  /** The probability that the object goes to none of the destinations: 0 unless the scenario has a `none`. */
+  get none(): number {
+    return this.#live().none();
+  }
+
+  /** The most probable destination, or null before the first observation. */
+  get best(): Best | null {
+    const engine = this.#live();
+    const index = engine.best();
+    if (index === undefined) return null;
+    const probabilities = this.#look(engine, engine.probabilities());
+    return { id: engine.id(index) as string, index, probability: probabilities[index] as number };
+  }
+
+  /**
+   * `log p(y_2:k | y_1, D_i)` of each destination, marginalised over the arrival time, in the order of {@link destinations}.
+   * A destination that can no longer be reached in time has `-Infinity`.
+   *
+   * @param into - Where to write them: as long as there are destinations.
+   * @returns `into`, or a new array.
+   * @throws {@link WhitherError} `wrong-type`, `wrong-length`.
+   */
+  logLikelihoods(into?: Float64Array): Float64Array {
+    const engine = this.#live();
+    return copy(this.#look(engine, engine.log_likelihoods()), into);
+  }
+
+  /**
+   * When the object arrives: the posterior of the arrival time.
+   *
+   * @param id - Given that it goes to this destination; left out: over all of them by their probabilities.
+   * @returns null before the first observation.
+   * @throws {@link WhitherError} `unknown-id`.
+   */
+  arrival(id?: string): ArrivalTime | null {
+    const numbers = this.#live().arrival(...encode({ id }));
+    if (numbers === undefined) return null;
+    const nodes = (numbers.length - 2) / 2;
+    return {
+      times: numbers.slice(2, 2 + nodes),
+      probabilities: numbers.slice(2 + nodes),
+      mean: numbers[0] as number,
+      deviation: numbers[1] as number,
+    };
+  }
+
+  /** How long it takes until the object enters its target; null before that can be said. */
+  get remaining(): Remaining | null {
+    const numbers = this.#live().remaining();
+    if (numbers === undefined) return null;
+    const [mean, low, high] = numbers as unknown as [number, number, number];
+    return { mean, low, high };
+  }
+
+  /**
+   * True when every node of the arrival time has passed. The probabilities then stay as they last were.
+   */
+  get expired(): boolean {
+    return this.#live().expired();
+  }
+
+  /** The ids of the destinations, in the order of {@link probabilities}. */
+  get destinations(): string[] {
+    return this.#live().ids();
+  }
+
+  /** The state now, given that the object goes to one of the destinations; null before the first observation. */
+  state(): Gaussian | null {
+    return gaussian(this.#live().state());
+  }
+
+  /** The state at the first observation, given all that came since; null before it. */
+  initialState(): Gaussian | null {
+    return gaussian(this.#live().initial_state());
+  }
+
+  /**
+   * The state at a later time, given that the object goes to one of the destinations and stays there.
+   *
+   * @param time - Seconds on the clock of the observations, at least the last observation's.
+   * @returns null before the first observation.
+   * @throws {@link WhitherError} `time-not-increasing`, `not-finite`.
+   */
+  forecast(time: number): Gaussian | null {
+    return gaussian(this.#live().forecast(...encode({ time })));
+  }
+
+  /**
+   * Where the object is expected to be at later times if it goes to one destination: for drawing.
+   *
+   * @param id - The destination.
+   * @param times - Seconds on the clock of the observations, at least the last observation's.
+   * @returns `d` coordinates for each time, one time behind the other.
+   * @throws {@link WhitherError} `unknown-id`, `time-not-increasing`, `not-finite`.
+   */
+  path(id: string, times: Vector): Float64Array {
+    return this.#live().path(...encode({ id, times }));
+  }
+
+  /**
+   * Adds one destination at the end of {@link destinations}, in the middle of a movement too.
+   *
+   * @throws {@link WhitherError} `duplicate-id`; `method-accumulates` in the middle of a movement, where the scenario's method
+   * accumulates evidence for each destination; and as the constructor does.
+   */
+  addDestination(destination: Destination): void {
+    this.#live().add_destination(...encode({ destination }));
+  }
+
+  /**
+   * Replaces one destination: its place, size, prior. It keeps its place in the order.
+   *
+   * @param id - The destination that is replaced.
+   * @param destination - What it is from now on; its `id` may be left out.
+   * @throws {@link WhitherError} `unknown-id`, and as {@link addDestination} does.
+   */
+  updateDestination(id: string, destination: Omit<Destination, "id"> & { readonly id?: string }): void {
+    this.#live().update_destination(...encode({ id, destination }));
+  }
+
+  /**
+   * Removes one destination.
+   *
+   * @throws {@link WhitherError} `unknown-id`; `no-destinations` for the last one; `method-accumulates`.
+   */
+  removeDestination(id: string): void {
+    this.#live().remove_destination(...encode({ id }));
+  }
+
+  /**
+   * Sets all destinations at once, in one crossing into WebAssembly: for icons that move and lists that scroll. Those whose id
+   * stays keep what is known of them.
+   *
+   * @throws {@link WhitherError} as {@link addDestination} does.
+   */
+  setDestinations(destinations: readonly Destination[]): void {
+    this.#live().set_destinations(...encode({ destinations }));
+  }
+
+  /** Begins a new movement with the same scenario and the destinations as they are now. */
+  reset(): void {
+    this.#live().reset();
+  }
+
+  /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */
+  clone(): Predictor {
+    return Predictor.#of(this.#live().duplicate());
+  }
+
+  /**
+   * All that the predictor knows, as plain JSON.
+   *
+   * @example
+   * ```ts
+   * const text = JSON.stringify(predictor.snapshot());
+   * const again = Predictor.restore(JSON.parse(text));
+   * ```
+   */
+  snapshot(): Snapshot {
+    return decodeTree(this.#live().snapshot()) as Snapshot;
+  }
+
+  /**
+   * The predictor that {@link snapshot} was taken of. What follows is identical to the bit.
+   *
+   * @throws {@link WhitherError} `bad-snapshot` where it is damaged or from another version.
+   */
+  static restore(snapshot: Snapshot): Predictor {
+    loaded();
+    return Predictor.#of(Engine.restore(...encode(snapshot, "snapshot")));
+  }
+
+  /**
+   * Gives the memory back. What is not freed is freed when it is garbage-collected, at a time that nobody knows.
+   *
+   * @throws {@link WhitherError} `freed`, where that was done before.
+   */
+  free(): void {
+    this.#live().free();
+    this.#engine = null;
+  }
+
+  static {
+    // Not every engine has Symbol.dispose yet.
+    if (typeof Symbol.dispose === "symbol") {
+      Object.defineProperty(Predictor.prototype, Symbol.dispose, {
+        value(this: Predictor) {
+          if (this.#engine) this.free();
+        },
+        configurable: true,
+        writable: true,
+      });
+    }
+  }
+
+  static #of(engine: Engine): Predictor {
+    return new Predictor(engine as unknown as Scenario);
+  }
+
+  #live(): Engine {
+    if (this.#engine) return this.#engine;
+    throw new WhitherError("freed", "", "this predictor was freed");
+  }
+
+  /** One number for each destination, at `address` in the module's memory: good until the next call into it. */
+  #look(engine: Engine, address: number): Float64Array {
+    const buffer = memory();
+    const length = engine.len();
+    const view = this.#view;
+    if (view.buffer === buffer && view.byteOffset === address && view.length === length) return view;
+    return (this.#view = new Float64Array(buffer, address, length));
+  }
+}
+
+export interface Predictor {
+  /** Frees the predictor at the end of a `using` declaration's block; does nothing where it was freed before. */
+  [Symbol.dispose](): void;
+}
+
+function gaussian(numbers: Float64Array | undefined): Gaussian | null {
+  if (numbers === undefined) return null;
+  // s numbers and s * s numbers.
+  const states = Math.round(Math.sqrt(numbers.length + 0.25) - 0.5);
+  return { mean: numbers.slice(0, states), covariance: numbers.slice(states) };
+}
+
+function copy(numbers: Float64Array, into: Float64Array | undefined): Float64Array {
+  if (into === undefined) return numbers.slice();
+  if (!ArrayBuffer.isView(into) || into[Symbol.toStringTag] !== "Float64Array") {
+    throw new WhitherError("wrong-type", "into", "must be a Float64Array");
+  }
+  if (into.length !== numbers.length) {
+    throw new WhitherError("wrong-length", "into", `must have ${numbers.length} numbers, has ${into.length}`);
+  }
+  into.set(numbers);
+  return into;
+}

@@ -1,0 +1,36 @@
+/**
+ * `whither/slim`: all of `whither` but the WebAssembly's bytes, for those who serve `whither/whither.wasm` themselves.
+ *
+ * @module
+ */
+import { WhitherError } from "./error.js";
+import { load } from "./glue.js";
+import type { WasmSource } from "./source.js";
+
+export * from "./exports.js";
+
+/** What {@link init} takes here: where the WebAssembly is. */
+export interface SlimInitOptions {
+  /** Where the WebAssembly is: the address of `whither/whither.wasm`, its bytes, a `Response`, a compiled module. */
+  readonly wasm: WasmSource;
+}
+
+/**
+ * Loads the WebAssembly. Call it as often as you like: it loads once, and can be tried again after a failure.
+ *
+ * @param options - Where the WebAssembly is. Once it is loaded, or loading, this is not looked at.
+ * @throws {@link WhitherError} `wasm-unavailable` where it cannot be had or is not allowed here; `missing-key`, `wrong-type`.
+ *
+ * @example
+ * ```ts
+ * import { init } from "whither/slim";
+ * await init({ wasm: "/assets/whither.wasm" });
+ * ```
+ */
+export function init(options: SlimInitOptions): Promise<void> {
+  return load(() => {
+    const wasm = options?.wasm;
+    if (wasm !== undefined) return wasm;
+    throw new WhitherError("missing-key", "wasm", 'missing key "wasm": whither/slim has no bytes of its own');
+  });
+}
