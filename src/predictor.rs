@@ -1,8 +1,8 @@
 //! The predictor: observations in, beliefs out.
 
+mod track;
+
 use crate::error::{Code, Error, Result};
-use crate::likelihood::candidates::Movement;
-use crate::likelihood::plan::Plan;
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::{Destination, Destinations};
 use crate::posterior::Posterior;
@@ -10,6 +10,8 @@ use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
 use std::sync::Arc;
+use track::Observed;
+pub(crate) use track::Track;
 
 /// The most probable destination.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,27 +66,6 @@ pub struct Predictor {
     stale: bool,
 }
 
-/// The movement that is going on.
-#[derive(Clone, Debug)]
-pub(crate) struct Track {
-    /// `t_1` on the caller's clock.
-    pub first_time: f64,
-    /// `t_k` on the caller's clock.
-    pub time: f64,
-    /// The first position, or the prior's where it was not observed.
-    pub start: Vec<f64>,
-    pub movement: Movement,
-    /// The movement before every node had passed: what the probabilities stay at.
-    pub frozen: Option<Box<Movement>>,
-}
-
-impl Track {
-    /// The movement that the probabilities are about.
-    pub fn believed(&self) -> &Movement {
-        self.frozen.as_deref().unwrap_or(&self.movement)
-    }
-}
-
 impl Predictor {
     /// A predictor that has seen nothing yet.
     ///
@@ -120,13 +101,10 @@ impl Predictor {
         let model = &self.scenario.observation;
         let noise = noise.map(|noise| model.read_noise(&Node::root(noise, "noise"))).transpose()?;
         let measurement = model.measurement(position, noise.as_ref())?;
+        let noise = noise.as_ref().unwrap_or_else(|| model.noise());
+        let observed = Observed { time, position, measurement: &measurement, noise };
         let Some(track) = &mut self.track else {
-            let first = self.scenario.initial.posterior(model, &measurement)?;
-            let start = first.mean.as_slice()[..self.dimensions()].to_vec();
-            let plan = self.plan(&start);
-            let (motion, method) = (&self.scenario.motion, self.scenario.method);
-            let movement = Movement::begin(motion, method, &self.destinations, plan, first);
-            self.track = Some(Track { first_time: time, time, start, movement, frozen: None });
+            self.track = Some(Track::begin(&self.scenario, &self.destinations, &observed)?);
             self.stale = true;
             return Ok(());
         };
@@ -135,30 +113,21 @@ impl Predictor {
                 format!("must be at least the last observation's, {}, got {}", number(track.time), number(time));
             return Err(Error::new(Code::TimeNotIncreasing, "time", message));
         }
-        let step = (time - track.first_time) - track.movement.elapsed;
-        if track.frozen.is_none() && !track.movement.plan.is_alive(track.movement.elapsed + step) {
-            if self.stale {
-                self.posterior.update(&track.movement, &self.destinations, self.scenario.none);
-                self.stale = false;
-            }
-            track.frozen = Some(Box::new(track.movement.clone()));
+        if self.stale && track.expires_by(time) {
+            track.update(&mut self.posterior, &self.destinations, self.scenario.none);
+            self.stale = false;
         }
-        track.movement.advance(&self.destinations, step, &measurement);
-        track.time = time;
-        self.stale |= track.frozen.is_none();
+        track.advance(&self.destinations, &observed)?;
+        self.stale |= !track.expired();
         Ok(())
-    }
-
-    fn plan(&self, start: &[f64]) -> Plan {
-        Plan::new(&self.destinations, &self.scenario.arrival, &self.scenario.quadrature, start)
     }
 
     fn refresh(&mut self) {
         if !std::mem::take(&mut self.stale) {
             return;
         }
-        match &self.track {
-            Some(track) => self.posterior.update(track.believed(), &self.destinations, self.scenario.none),
+        match &mut self.track {
+            Some(track) => track.update(&mut self.posterior, &self.destinations, self.scenario.none),
             None => self.posterior.set_to_prior(&self.destinations, self.scenario.none),
         }
     }
@@ -243,7 +212,7 @@ impl Predictor {
     /// Whether every arrival node has passed; the probabilities stay as they last were.
     #[must_use]
     pub fn expired(&self) -> bool {
-        self.track.as_ref().is_some_and(|track| track.frozen.is_some())
+        self.track.as_ref().is_some_and(Track::expired)
     }
 
     /// The posterior of the arrival time on the caller's clock, for one destination or mixed over all of them; none before
@@ -255,11 +224,7 @@ impl Predictor {
         let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
         self.refresh();
         let Some(track) = &self.track else { return Ok(None) };
-        let movement = track.believed();
-        let mut arrival = match only {
-            Some(i) => self.posterior.arrival(movement, i..=i, true),
-            None => self.posterior.arrival(movement, 0..self.destinations.len(), false),
-        };
+        let mut arrival = track.arrival(&self.posterior, &self.destinations, only);
         arrival.times.iter_mut().for_each(|t| *t += track.first_time);
         arrival.mean += track.first_time;
         Ok(Some(arrival))
@@ -269,17 +234,7 @@ impl Predictor {
     /// after every node has passed.
     pub fn remaining(&mut self) -> Option<Remaining> {
         self.refresh();
-        let track = self.track.as_ref()?;
-        if track.movement.observations < 2 || track.frozen.is_some() {
-            return None;
-        }
-        let arrival = self.posterior.arrival(&track.movement, 0..self.destinations.len(), false);
-        let elapsed = track.movement.elapsed;
-        Some(Remaining {
-            mean: arrival.mean - elapsed,
-            low: arrival.quantile(0.1) - elapsed,
-            high: arrival.quantile(0.9) - elapsed,
-        })
+        self.track.as_ref()?.remaining(&self.posterior, &self.destinations)
     }
 
     /// The state now, given that the object is going to one of the destinations; none before the first observation.
@@ -290,8 +245,7 @@ impl Predictor {
     /// The state at the first observation given all of them, `p(x_1 | y_1:k)`; none before the first observation.
     pub fn initial_state(&mut self) -> Option<Gaussian> {
         self.refresh();
-        let track = self.track.as_ref()?;
-        self.posterior.initial_state(track.believed(), &self.destinations)
+        self.track.as_ref()?.initial_state(&self.posterior, &self.destinations)
     }
 
     /// The state at `time`, which is the last observation's or later; none before the first observation.
@@ -335,8 +289,7 @@ impl Predictor {
 
     fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
         self.refresh();
-        let track = self.track.as_ref()?;
-        self.posterior.state(track.believed(), &track.movement, &self.destinations, later, only)
+        self.track.as_ref()?.state(&self.posterior, &self.destinations, later, only)
     }
 
     fn read_destination(&self, value: &Value) -> Result<Destination> {
@@ -404,20 +357,16 @@ impl Predictor {
 
     fn replace(&mut self, changed: Destinations) -> Result<()> {
         self.scenario.check_arrivals(&changed)?;
-        let Some(track) = &self.track else {
+        if self.track.is_none() {
             self.destinations = Arc::new(changed);
             self.stale = true;
             return Ok(());
-        };
+        }
         self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
         let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
-        let plan = Plan::new(&changed, &self.scenario.arrival, &self.scenario.quadrature, &track.start);
         self.destinations = Arc::new(changed);
         if let Some(track) = &mut self.track {
-            if let Some(frozen) = &mut track.frozen {
-                frozen.replan(plan.clone(), origin.as_deref());
-            }
-            track.movement.replan(plan, origin.as_deref());
+            track.replan(&self.scenario, &self.destinations, origin.as_deref());
         }
         self.stale = true;
         Ok(())

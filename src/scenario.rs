@@ -16,16 +16,20 @@
 
 use crate::error::{Code, Error, Result};
 use crate::likelihood::Method;
+use crate::likelihood::plan::Plan;
+use crate::likelihood::pointing::parameters::Parameters;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
-use crate::value::{Node, Value};
+use crate::value::{Fields, Node, Value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::sync::Arc;
 
-const KEYS: [&str; 8] = ["motion", "observation", "initial", "arrival", "quadrature", "method", "none", "destinations"];
+const KEYS: [&str; 9] =
+    ["motion", "observation", "initial", "arrival", "quadrature", "method", "pointing", "none", "destinations"];
 
 /// Everything that a predictor is made from.
 #[derive(Clone, Debug)]
@@ -36,16 +40,28 @@ pub struct Scenario {
     pub observation: ObservationModel,
     /// What is known of it before the first observation.
     pub initial: Initial,
-    /// The arrival prior of the destinations that have none of their own.
-    pub arrival: Arrival,
-    /// How the arrival time is summed over.
-    pub quadrature: Quadrature,
     /// Which predictor.
-    pub method: Method,
+    pub engine: Engine,
     /// The prior probability that the object goes to none of the destinations, at least 0 and less than 1.
     pub none: f64,
     /// Where it may be going.
     pub destinations: Destinations,
+}
+
+/// Which predictor, and what only it needs.
+#[derive(Clone, Debug)]
+pub enum Engine {
+    /// A method of the papers.
+    Papers {
+        /// Which one.
+        method: Method,
+        /// The arrival prior of the destinations that have none of their own.
+        arrival: Arrival,
+        /// How the arrival time is summed over.
+        quadrature: Quadrature,
+    },
+    /// The pointing model.
+    Pointing(Arc<Parameters>),
 }
 
 impl Scenario {
@@ -60,13 +76,10 @@ impl Scenario {
         let (d, s) = (motion.dimensions(), motion.states());
         let observation = ObservationModel::read(&fields.required("observation")?, d, s)?;
         let initial = Initial::read(fields.optional("initial"), d, s, &deviations_after_a_second(&motion))?;
-        let arrival = Arrival::read(&fields.required("arrival")?)?;
-        let quadrature =
-            fields.optional("quadrature").map_or_else(|| Ok(Quadrature::default()), |q| Quadrature::read(&q))?;
-        let method = fields.optional("method").map_or(Ok(Method::PseudoObservation), |m| m.word(&Method::NAMES))?;
+        let engine = Engine::read(&fields, &motion, &observation, &initial)?;
         let none = fields.optional("none").map_or(Ok(0.0), |none| none.number())?;
         let destinations = Destinations::read(&fields.required("destinations")?, d, s)?;
-        let scenario = Self { motion, observation, initial, arrival, quadrature, method, none, destinations };
+        let scenario = Self { motion, observation, initial, engine, none, destinations };
         scenario.check()?;
         scenario.check_arrivals(&scenario.destinations)?;
         Ok(scenario)
@@ -79,19 +92,16 @@ impl Scenario {
             let message = format!("must be at least 0 and less than 1, got {}", none.quoted());
             return Err(Error::new(Code::OutOfRange, "none", message));
         }
-        if self.none > 0.0 && self.method == Method::SingleFilterApproximate {
+        let Engine::Papers { method, arrival, .. } = &self.engine else { return Ok(()) };
+        if self.none > 0.0 && *method == Method::SingleFilterApproximate {
             let message = "must be 0 with \"singleFilterApproximate\", whose likelihoods are known up to a factor only";
             return Err(Error::new(Code::OutOfRange, "none", message));
-        }
-        if self.motion.speed_noise.is_some() {
-            let message = "is for the method \"pointing\" only";
-            return Err(Error::new(Code::OutOfRange, "motion.speedNoise", message));
         }
         if self.initial.is_flat() && !self.observation.is_position() {
             let message = "missing mean and covariance: with observation.matrix, initial cannot be flat in position";
             return Err(Error::new(Code::MissingKey, "initial", message));
         }
-        if self.arrival.is_horizon() {
+        if arrival.is_horizon() {
             self.refuse_accumulating("arrival", "a horizon moves with every observation")?;
         }
         Ok(())
@@ -100,8 +110,11 @@ impl Scenario {
     /// Whether the arrival priors of these destinations go with the method.
     ///
     /// # Errors
-    /// `method-accumulates`.
+    /// `method-accumulates`; `unknown-key` with the pointing model, which has nodes of its own.
     pub(crate) fn check_arrivals(&self, destinations: &Destinations) -> Result<()> {
+        if matches!(self.engine, Engine::Pointing(_)) {
+            return check_for_pointing(destinations);
+        }
         let own = |i: &usize| destinations.kind(*i).arrival.as_ref().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
@@ -115,13 +128,14 @@ impl Scenario {
     /// # Errors
     /// `method-accumulates`.
     pub(crate) fn refuse_accumulating(&self, path: &str, why: &str) -> Result<()> {
-        if !self.method.accumulates() {
+        let Engine::Papers { method, .. } = &self.engine else { return Ok(()) };
+        if !method.accumulates() {
             return Ok(());
         }
         let message = format!(
             "{why}, but \"{}\" accumulates evidence for each destination and arrival time; \"pseudoObservation\", \
              \"singleFilter\" and \"singleFilterApproximate\" do not",
-            self.method.name()
+            method.name()
         );
         Err(Error::new(Code::MethodAccumulates, path, message))
     }
@@ -131,14 +145,23 @@ impl Scenario {
         let mut entries = vec![
             ("motion".to_owned(), self.motion.to_value()),
             ("observation".to_owned(), self.observation.to_value().clone()),
-            ("arrival".to_owned(), self.arrival.to_value()),
-            ("quadrature".to_owned(), self.quadrature.to_value()),
-            ("method".to_owned(), Value::text(self.method.name())),
             ("none".to_owned(), Value::Number(self.none)),
             ("destinations".to_owned(), destinations.to_value()),
         ];
+        let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
+        match &self.engine {
+            Engine::Papers { method, arrival, quadrature } => {
+                put("arrival", arrival.to_value());
+                put("quadrature", quadrature.to_value());
+                put("method", Value::text(method.name()));
+            }
+            Engine::Pointing(parameters) => {
+                put("method", Value::text(POINTING));
+                put("pointing", parameters.to_value());
+            }
+        }
         if *self.initial.to_value() != Value::Null {
-            entries.push(("initial".to_owned(), self.initial.to_value().clone()));
+            put("initial", self.initial.to_value().clone());
         }
         Value::Map(entries)
     }
@@ -148,6 +171,66 @@ impl Scenario {
     pub fn to_value(&self) -> Value {
         self.to_value_with(&self.destinations)
     }
+}
+
+/// The pointing model as `method` spells it.
+const POINTING: &str = "pointing";
+
+impl Engine {
+    fn read(fields: &Fields<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
+        let names = Method::NAMES.map(|(name, method)| (name, Some(method)));
+        let mut words = vec![(POINTING, None)];
+        words.splice(0..0, names);
+        let method = fields.optional("method").map_or(Ok(Some(Method::PseudoObservation)), |m| m.word(&words))?;
+        let Some(method) = method else {
+            for key in ["arrival", "quadrature"] {
+                if let Some(extra) = fields.optional(key) {
+                    return Err(extra.error(Code::UnknownKey, "has no place with the method \"pointing\""));
+                }
+            }
+            let node = fields.required("pointing")?;
+            return Parameters::read(&node, motion, observation, initial).map(|p| Self::Pointing(Arc::new(p)));
+        };
+        for (key, extra) in
+            [("pointing", fields.optional("pointing").is_some()), ("motion.speedNoise", motion.speed_noise.is_some())]
+        {
+            if extra {
+                return Err(Error::new(Code::UnknownKey, key, "is for the method \"pointing\" only"));
+            }
+        }
+        let arrival = Arrival::read(&fields.required("arrival")?)?;
+        let quadrature =
+            fields.optional("quadrature").map_or_else(|| Ok(Quadrature::default()), |q| Quadrature::read(&q))?;
+        Ok(Self::Papers { method, arrival, quadrature })
+    }
+
+    /// The arrival nodes of destinations, where a method of the papers needs them.
+    pub(crate) fn plan(&self, destinations: &Destinations, start: &[f64]) -> Option<Plan> {
+        match self {
+            Self::Papers { arrival, quadrature, .. } => Some(Plan::new(destinations, arrival, quadrature, start)),
+            Self::Pointing(_) => None,
+        }
+    }
+}
+
+/// What the pointing model has no use for in a destination.
+fn check_for_pointing(destinations: &Destinations) -> Result<()> {
+    for i in 0..destinations.len() {
+        let kind = destinations.kind(i);
+        let extra = [
+            ("arrival", kind.arrival.is_some()),
+            ("endVelocity", kind.end_velocity.is_some()),
+            ("mean", destinations.mean(i).len() > destinations.dimensions()),
+        ];
+        for (key, found) in extra {
+            if found {
+                let message =
+                    "the method \"pointing\" knows positions alone as endpoints, and arrival nodes of its own";
+                return Err(Error::new(Code::UnknownKey, format!("destinations[{i}].{key}"), message));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The deviation that a second of the noisiest candidate gives each component after the position: the default of `initial`.

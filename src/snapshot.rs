@@ -1,8 +1,6 @@
 //! Snapshots: a predictor as plain data, versioned and sealed, from which what follows is identical to the bit.
 
 use crate::error::{Code, Error, Result};
-use crate::likelihood::candidates::Movement;
-use crate::likelihood::plan::Plan;
 use crate::predictor::{Predictor, Track};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
@@ -29,15 +27,7 @@ impl Predictor {
     /// ```
     #[must_use]
     pub fn snapshot(&self) -> Value {
-        let track = self.track.as_ref().map_or(Value::Null, |track| {
-            Value::map([
-                ("firstTime", Value::exact(track.first_time)),
-                ("time", Value::exact(track.time)),
-                ("start", Value::exact_numbers(&track.start)),
-                ("movement", track.movement.save()),
-                ("frozen", track.frozen.as_ref().map_or(Value::Null, |movement| movement.save())),
-            ])
-        });
+        let track = self.track.as_ref().map_or(Value::Null, Track::save);
         let body = Value::map([("scenario", self.scenario.to_value_with(&self.destinations)), ("track", track)]);
         let seal = seal(&body);
         Value::map([
@@ -84,19 +74,7 @@ impl Predictor {
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
         let destinations = Arc::new(scenario.destinations.clone());
         let Some(track) = fields.optional("track") else { return Ok(Self::with_track(scenario, destinations, None)) };
-        let fields = track.fields(&["firstTime", "time", "start", "movement", "frozen"])?;
-        let start = fields.required("start")?.exact_numbers(scenario.motion.dimensions())?;
-        let load = |node: &Node<'_>| {
-            let plan = Plan::new(&destinations, &scenario.arrival, &scenario.quadrature, &start);
-            Movement::load(node, &scenario.motion, scenario.method, &destinations, plan)
-        };
-        let track = Track {
-            first_time: fields.required("firstTime")?.exact()?,
-            time: fields.required("time")?.exact()?,
-            movement: load(&fields.required("movement")?)?,
-            frozen: fields.optional("frozen").map(|frozen| load(&frozen).map(Box::new)).transpose()?,
-            start,
-        };
+        let track = Track::load(&track, &scenario, &destinations)?;
         Ok(Self::with_track(scenario, destinations, Some(track)))
     }
 }

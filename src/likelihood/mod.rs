@@ -16,6 +16,7 @@ pub mod algorithm2;
 pub mod bridging;
 pub mod candidates;
 pub mod plan;
+pub mod pointing;
 pub mod pseudo_observation;
 pub mod single_filter;
 

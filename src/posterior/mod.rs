@@ -1,6 +1,7 @@
 //! Liang (3): the posterior over destinations, and "none of them".
 
 pub mod arrival_time;
+pub mod pointing;
 pub mod state;
 
 use crate::likelihood::candidates::Movement;

@@ -1,0 +1,78 @@
+//! What is said of a destination apart from the endpoint density: seen from the start of the movement.
+
+use super::course::Course;
+use super::parameters::{Direction, Start};
+use super::{Vector, dot, minus};
+use crate::model::destination::Kind;
+use nalgebra::DMatrix;
+
+/// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is seen.
+#[must_use]
+pub fn log_start(start: &Start, offset: &Vector) -> f64 {
+    -0.5 * start.exponent * (dot(offset, offset) + start.core * start.core).ln()
+}
+
+/// `ln (m^2 / (m^2 + near^2))`, `m` the distance from the start in widths and heights of the target: a movement seldom ends
+/// where it began.
+#[must_use]
+pub fn log_near(near: f64, offset: &Vector, kind: &Kind, dimensions: usize) -> f64 {
+    let mut distance = 0.0;
+    let mut volume = 1.0;
+    for (j, component) in offset.iter().enumerate().take(dimensions) {
+        let extent = match &kind.size {
+            Some(size) => size[j],
+            None => (12.0 * kind.covariance[(j, j)]).sqrt(),
+        };
+        distance += (component / extent).powi(2);
+        volume *= extent;
+    }
+    // One unit of length, so that a target right under the start keeps a chance.
+    distance += volume.powf(-2.0 / dimensions as f64);
+    (distance / (distance + near * near)).ln()
+}
+
+/// The direction from the start to where the pointer is now, and how much it counts.
+#[derive(Clone, Copy, Debug)]
+pub struct DirectionNow<'a> {
+    direction: &'a Direction,
+    dimensions: usize,
+    way: Vector,
+    weight: f64,
+}
+
+impl<'a> DirectionNow<'a> {
+    /// Counts for more the farther the pointer has come and the slower it is.
+    #[must_use]
+    pub fn new(direction: &'a Direction, course: &Course) -> Self {
+        let way = minus(&course.position(), &course.start);
+        let net = dot(&way, &way).sqrt();
+        let weight = net / (net + direction.distance + direction.time * course.speed());
+        Self { direction, dimensions: course.dimensions(), way, weight: direction.power * weight }
+    }
+
+    /// `power w [2 ln(1 + theta^2/(wide^2 + z)) - ln(1 + theta^2/(core^2 + z))]`, with `theta` the angle at the start between
+    /// the way covered and the destination at `offset`, and `z` the variance of the target's own direction.
+    #[must_use]
+    pub fn log_evidence(&self, offset: &Vector, covariance: &DMatrix<f64>) -> f64 {
+        let (along, square) = (dot(&self.way, offset), dot(offset, offset));
+        let across = (dot(&self.way, &self.way) * square - along * along).max(0.0).sqrt();
+        let angle = across.atan2(along).powi(2);
+        let size = self.angular_variance(offset, square, covariance);
+        let term = |width: f64| (angle / (width * width + size)).ln_1p();
+        self.weight * (2.0 * term(self.direction.wide) - term(self.direction.core))
+    }
+
+    fn angular_variance(&self, offset: &Vector, square: f64, covariance: &DMatrix<f64>) -> f64 {
+        if self.dimensions == 1 {
+            return 0.0;
+        }
+        let (mut trace, mut towards) = (0.0, 0.0);
+        for j in 0..self.dimensions {
+            trace += covariance[(j, j)];
+            for k in 0..self.dimensions {
+                towards += offset[j] * covariance[(j, k)] * offset[k];
+            }
+        }
+        (trace * square - towards) / (self.dimensions as f64 - 1.0) / (square + 1.0).powi(2)
+    }
+}

@@ -1,0 +1,336 @@
+//! The constants of the pointing model, as a scenario states them.
+
+use super::{Vector, vector};
+use crate::error::{Code, Error, Result};
+use crate::model::initial::Initial;
+use crate::model::motion::Motion;
+use crate::model::observation::ObservationModel;
+use crate::value::{Node, Value};
+use nalgebra::DMatrix;
+
+/// The most noise scales and time-to-go nodes: both are summed over for every destination.
+const MOST_SCALES: usize = 16;
+const MOST_NODES: usize = 1001;
+
+/// Every constant. Lengths are in the unit of the positions, times in seconds, angles in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    /// Filter: root of the noise's spectral density at rest (`motion.noise`).
+    pub filter_noise: f64,
+    /// Filter: how that root grows with the speed (`motion.speedNoise`).
+    pub speed_noise: f64,
+    /// Filter: deviation of the velocity at the first observation (`initial.velocity`).
+    pub first_speed: Vector,
+    /// Endpoint density: roots of the spectral density of the movement still to come, one for each scale, equally likely.
+    pub scales: Vec<f64>,
+    /// Endpoint density: growth of that root with the speed, along the velocity.
+    pub along_noise: f64,
+    /// Endpoint density: the same, across it.
+    pub across_noise: f64,
+    /// Endpoint density: the time to go.
+    pub time_to_go: TimeToGo,
+    /// What the start alone says of the endpoint.
+    pub start: Start,
+    /// The direction from the start.
+    pub direction: Direction,
+    /// How far the ratio of endpoint and start density is believed.
+    pub power: Power,
+    /// Distance from the start, in target sizes, below which a destination is unlikely.
+    pub near: f64,
+    /// What a destination has to gain before it counts against "none".
+    pub none_gain: f64,
+    /// Share of the probability that is spread evenly over the destinations.
+    pub uniform: f64,
+}
+
+/// A discrete prior on the time to go, log-normal about a median that follows the speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeToGo {
+    /// The first node.
+    pub from: f64,
+    /// The last node.
+    pub to: f64,
+    /// How many nodes, evenly spaced in the logarithm.
+    pub points: usize,
+    /// The median at 1000 units of length a second.
+    pub median: f64,
+    /// The deviation of the logarithm.
+    pub spread: f64,
+    /// The median goes with `((speed + 50) / 1000)^speedExponent`.
+    pub speed_exponent: f64,
+}
+
+/// Density of the endpoint seen from the start: `(distance^2 + core^2)^(-exponent/2)` within `reach`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// How fast it falls; `d - 1` makes every distance equally likely.
+    pub exponent: f64,
+    /// Where it flattens.
+    pub core: f64,
+    /// Where it ends.
+    pub reach: f64,
+}
+
+/// The angle at the start between where the pointer is and where a destination is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Direction {
+    /// Weight.
+    pub power: f64,
+    /// Angle below which nothing is gained any more.
+    pub core: f64,
+    /// Angle beyond which nothing is lost any more.
+    pub wide: f64,
+    /// Distance from the start at which the weight is a half, at rest.
+    pub distance: f64,
+    /// How that distance grows with the speed.
+    pub time: f64,
+}
+
+/// A power that grows from `from` to `to` with the time constant `time`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Power {
+    /// At the first observation.
+    pub from: f64,
+    /// In the long run.
+    pub to: f64,
+    /// Time constant.
+    pub time: f64,
+}
+
+impl Power {
+    /// The power after `elapsed` seconds.
+    #[must_use]
+    pub fn after(&self, elapsed: f64) -> f64 {
+        self.to - (self.to - self.from) * (-elapsed / self.time).exp()
+    }
+}
+
+const KEYS: [&str; 10] =
+    ["noise", "alongNoise", "acrossNoise", "timeToGo", "start", "direction", "power", "near", "noneGain", "uniform"];
+
+impl Parameters {
+    /// Reads the key `pointing` of a scenario, together with the filter's three constants.
+    ///
+    /// # Errors
+    /// `unknown-key`, `missing-key`, `wrong-type`, `not-finite`, `out-of-range`, `too-large`.
+    pub fn read(node: &Node<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
+        let filter_noise = filter_noise(motion)?;
+        if !observation.is_position() {
+            let message = "has no place with the method \"pointing\", which observes positions";
+            return Err(Error::new(Code::UnknownKey, "observation.matrix", message));
+        }
+        axis_variances(observation.noise(), "observation.noise")?;
+        let first_speed = vector(initial.flat_deviations().ok_or_else(|| {
+            let message = "has no place with the method \"pointing\", which takes initial.velocity";
+            Error::new(Code::UnknownKey, "initial.mean", message)
+        })?);
+        let fields = node.fields(&KEYS)?;
+        let scales = read_scales(&fields.required("noise")?)?;
+        let not_negative = |key: &'static str| fields.required(key)?.not_negative();
+        Ok(Self {
+            filter_noise,
+            speed_noise: motion.speed_noise.unwrap_or(0.0),
+            first_speed,
+            scales,
+            along_noise: not_negative("alongNoise")?,
+            across_noise: not_negative("acrossNoise")?,
+            time_to_go: TimeToGo::read(&fields.required("timeToGo")?)?,
+            start: Start::read(&fields.required("start")?)?,
+            direction: Direction::read(&fields.required("direction")?)?,
+            power: Power::read(&fields.required("power")?)?,
+            near: not_negative("near")?,
+            none_gain: fields.required("noneGain")?.number()?,
+            uniform: read_share(&fields.required("uniform")?)?,
+        })
+    }
+
+    /// The key `pointing` as it is written.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        let number = Value::Number;
+        Value::map([
+            ("noise", Value::numbers(&self.scales)),
+            ("alongNoise", number(self.along_noise)),
+            ("acrossNoise", number(self.across_noise)),
+            ("timeToGo", self.time_to_go.to_value()),
+            ("start", self.start.to_value()),
+            ("direction", self.direction.to_value()),
+            ("power", self.power.to_value()),
+            ("near", number(self.near)),
+            ("noneGain", number(self.none_gain)),
+            ("uniform", number(self.uniform)),
+        ])
+    }
+}
+
+/// The one noise that `constantVelocity` has on every axis.
+fn filter_noise(motion: &Motion) -> Result<f64> {
+    let value = motion.to_value();
+    let node = Node::root(&value, "motion");
+    if node.get("type").map(|kind| kind.value().clone()) != Some(Value::text("constantVelocity")) {
+        let message = "must be \"constantVelocity\" with the method \"pointing\"";
+        return Err(Error::new(Code::OutOfRange, "motion.type", message));
+    }
+    match node.get("noise").map(|noise| noise.value().clone()) {
+        Some(Value::Number(noise)) => Ok(noise),
+        _ => {
+            let message = "must be one number with the method \"pointing\": the same on every axis, no candidates";
+            Err(Error::new(Code::WrongType, "motion.noise", message))
+        }
+    }
+}
+
+/// The variances of the axes, which the pointing model takes one by one.
+///
+/// # Errors
+/// `out-of-range` where the axes are correlated.
+pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<Vec<f64>> {
+    let correlated = (0..noise.nrows()).any(|r| (0..r).any(|c| noise[(r, c)] != 0.0));
+    if correlated {
+        let message = "must have no correlation between axes with the method \"pointing\"";
+        return Err(Error::new(Code::OutOfRange, path, message));
+    }
+    Ok(noise.diagonal().as_slice().to_vec())
+}
+
+fn read_scales(node: &Node<'_>) -> Result<Vec<f64>> {
+    let scales: Vec<f64> = node.items()?.map(|item| item.positive()).collect::<Result<_>>()?;
+    if scales.is_empty() || scales.len() > MOST_SCALES {
+        let message = format!("must have 1 to {MOST_SCALES} numbers, has {}", scales.len());
+        return Err(Error::new(Code::WrongLength, node.path(), message));
+    }
+    Ok(scales)
+}
+
+fn read_share(node: &Node<'_>) -> Result<f64> {
+    let share = node.number()?;
+    if (0.0..=1.0).contains(&share) { Ok(share) } else { Err(node.error(Code::OutOfRange, "must be from 0 to 1")) }
+}
+
+impl TimeToGo {
+    fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["from", "to", "points", "median", "spread", "speedExponent"])?;
+        let positive = |key: &'static str| fields.required(key)?.positive();
+        let (from, to) = (positive("from")?, positive("to")?);
+        if from >= to {
+            return Err(fields.required("to")?.error(Code::OutOfRange, "must be greater than from"));
+        }
+        Ok(Self {
+            from,
+            to,
+            points: fields.required("points")?.whole(2, MOST_NODES)?,
+            median: positive("median")?,
+            spread: positive("spread")?,
+            speed_exponent: fields.required("speedExponent")?.number()?,
+        })
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("from", Value::Number(self.from)),
+            ("to", Value::Number(self.to)),
+            ("points", Value::Number(self.points as f64)),
+            ("median", Value::Number(self.median)),
+            ("spread", Value::Number(self.spread)),
+            ("speedExponent", Value::Number(self.speed_exponent)),
+        ])
+    }
+
+    /// The nodes.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<f64> {
+        let (from, to) = (self.from.ln(), self.to.ln());
+        let last = self.points - 1;
+        (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
+    }
+
+    /// The logarithms of the nodes' weights at a speed, normalised.
+    pub fn log_weights(&self, nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
+        let middle = self.median.ln() + self.speed_exponent * ((speed + 50.0) / 1000.0).ln();
+        into.clear();
+        into.extend(nodes.iter().map(|node| -0.5 * ((node.ln() - middle) / self.spread).powi(2)));
+        let total = crate::math::log_sum_exp::log_sum_exp(into);
+        into.iter_mut().for_each(|weight| *weight -= total);
+    }
+}
+
+impl Start {
+    fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["exponent", "core", "reach"])?;
+        Ok(Self {
+            exponent: fields.required("exponent")?.not_negative()?,
+            core: fields.required("core")?.positive()?,
+            reach: fields.required("reach")?.positive()?,
+        })
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("exponent", Value::Number(self.exponent)),
+            ("core", Value::Number(self.core)),
+            ("reach", Value::Number(self.reach)),
+        ])
+    }
+
+    /// `ln` of the integral of `(r^2 + core^2)^(-exponent/2)` over the ball of radius `reach`.
+    #[must_use]
+    pub fn log_volume(&self, dimensions: usize) -> f64 {
+        // r = core sinh(u) makes the integrand smooth on every scale; Simpson's rule on it.
+        const INTERVALS: usize = 512;
+        let surface = match dimensions {
+            1 => 2.0,
+            2 => 2.0 * std::f64::consts::PI,
+            _ => 4.0 * std::f64::consts::PI,
+        };
+        let end = (self.reach / self.core).asinh();
+        let width = end / INTERVALS as f64;
+        let integrand = |u: f64| {
+            let radius = self.core * u.sinh();
+            radius.powi(dimensions as i32 - 1) * (self.core * u.cosh()).powf(1.0 - self.exponent)
+        };
+        let inner: f64 = (1..INTERVALS).map(|k| if k % 2 == 1 { 4.0 } else { 2.0 } * integrand(k as f64 * width)).sum();
+        (surface * width / 3.0 * (integrand(0.0) + inner + integrand(end))).ln()
+    }
+}
+
+impl Direction {
+    fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["power", "core", "wide", "distance", "time"])?;
+        Ok(Self {
+            power: fields.required("power")?.not_negative()?,
+            core: fields.required("core")?.positive()?,
+            wide: fields.required("wide")?.positive()?,
+            distance: fields.required("distance")?.positive()?,
+            time: fields.required("time")?.not_negative()?,
+        })
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("power", Value::Number(self.power)),
+            ("core", Value::Number(self.core)),
+            ("wide", Value::Number(self.wide)),
+            ("distance", Value::Number(self.distance)),
+            ("time", Value::Number(self.time)),
+        ])
+    }
+}
+
+impl Power {
+    fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["from", "to", "time"])?;
+        Ok(Self {
+            from: fields.required("from")?.not_negative()?,
+            to: fields.required("to")?.not_negative()?,
+            time: fields.required("time")?.positive()?,
+        })
+    }
+
+    fn to_value(&self) -> Value {
+        Value::map([
+            ("from", Value::Number(self.from)),
+            ("to", Value::Number(self.to)),
+            ("time", Value::Number(self.time)),
+        ])
+    }
+}

@@ -1,0 +1,64 @@
+//! The posterior of the pointing model: destinations, none of them, the time to go.
+
+pub mod state;
+
+use super::Posterior;
+use super::arrival_time::Arrival;
+use crate::likelihood::pointing::Pointing;
+use crate::model::destination::Destinations;
+
+/// Destinations that are asked about, each with its share; the shares need not sum to one.
+pub type Shares<'a> = &'a [(usize, f64)];
+
+impl Posterior {
+    /// Multiplies likelihoods, priors and the factor `near`, normalises together with none of them, whose prior is `none`,
+    /// and spreads the even share over the destinations that are possible at all.
+    pub fn update_pointing(&mut self, pointing: &mut Pointing, destinations: &Destinations, none: f64) {
+        pointing.log_likelihoods(destinations, &mut self.log_likelihoods);
+        let priors = destinations.priors();
+        let total: f64 = priors.iter().sum();
+        let scale = (1.0 - none) / total;
+        let log_none = if none > 0.0 { none.ln() + pointing.log_likelihood_of_none() } else { f64::NEG_INFINITY };
+        let each = self.log_likelihoods.iter().zip(pointing.log_near()).zip(priors);
+        self.probabilities.clear();
+        self.probabilities.extend(each.map(|((likelihood, near), prior)| likelihood + near + (scale * prior).ln()));
+        let largest = self.probabilities.iter().copied().fold(log_none, f64::max);
+        self.none = (log_none - largest).exp();
+        let mut sum = self.none;
+        for value in &mut self.probabilities {
+            *value = (*value - largest).exp();
+            sum += *value;
+        }
+        self.none /= sum;
+        let uniform = pointing.parameters().uniform;
+        let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
+        let share = uniform * (1.0 - self.none) / possible as f64;
+        for (value, prior) in self.probabilities.iter_mut().zip(priors) {
+            *value = (1.0 - uniform) * *value / sum + if *prior > 0.0 { share } else { 0.0 };
+        }
+    }
+
+    /// The destinations with their shares of what is not none, or one of them alone.
+    #[must_use]
+    pub fn shares(&self, only: Option<usize>) -> Vec<(usize, f64)> {
+        match only {
+            Some(i) => vec![(i, 1.0)],
+            None => self.probabilities.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect(),
+        }
+    }
+}
+
+impl Pointing {
+    /// The posterior of the arrival time, in seconds since the first observation.
+    #[must_use]
+    pub fn arrival(&self, destinations: &Destinations, shares: Shares<'_>) -> Arrival {
+        let pairs = self.nodes();
+        let mut nodes = Vec::with_capacity(pairs.pairs.len());
+        nodes.extend(pairs.pairs.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)));
+        for &(i, share) in shares {
+            let weights = pairs.weights(destinations.center(i), &destinations.kind(i).covariance);
+            nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
+        }
+        Arrival::from_nodes(nodes)
+    }
+}

@@ -1,0 +1,252 @@
+//! The pointing model: golden cases of an independent reference, three dimensions, and the life of a movement.
+
+use crate::support::{golden, numbers, predictor, relative, value};
+use serde_json::{Value as Json, json};
+use whither::{Code, Predictor, Scenario};
+
+const CASES: [&str; 5] =
+    ["pointing-grid21", "pointing-none", "pointing-repeats", "pointing-ring12", "pointing-sizes40"];
+
+fn observations(case: &Json) -> Vec<Vec<f64>> {
+    case["observations"].as_array().unwrap().iter().map(numbers).collect()
+}
+
+#[test]
+fn every_golden_case_is_reproduced() {
+    for name in CASES {
+        let case = golden(name);
+        let mut predictor = predictor(&case["scenario"]);
+        for (k, observation) in observations(&case).iter().enumerate() {
+            predictor.observe(observation[0], &observation[1..]).unwrap();
+            let expected = numbers(&case["expected"]["probabilities"][k]);
+            let none = case["expected"]["none"][k].as_f64().unwrap();
+            let difference = relative(predictor.probabilities(), &expected).max((predictor.none() - none).abs());
+            assert!(difference < 1e-9, "{name} k = {k}: probabilities differ by {difference:e}");
+            let sum: f64 = predictor.probabilities().iter().sum::<f64>() + predictor.none();
+            assert!((sum - 1.0).abs() < 1e-12, "{name} k = {k}: they sum to {sum}");
+        }
+        let arrival = predictor.arrival(None).unwrap().unwrap();
+        let expected = &case["expected"]["arrival"];
+        assert!(relative(&arrival.times, &numbers(&expected["times"])) < 1e-9, "{name}");
+        assert!(relative(&arrival.probabilities, &numbers(&expected["probabilities"])) < 1e-9, "{name}");
+        assert!((arrival.mean - expected["mean"].as_f64().unwrap()).abs() < 1e-9, "{name}");
+    }
+}
+
+/// A golden scenario and its observations in other coordinates: each position becomes `map(position)`.
+fn mapped(case: &Json, dimensions: usize, map: impl Fn(&[f64]) -> Vec<f64>) -> (Json, Vec<(f64, Vec<f64>)>) {
+    let mut scenario = case["scenario"].clone();
+    scenario["motion"]["dimensions"] = json!(dimensions);
+    for destination in scenario["destinations"].as_array_mut().unwrap() {
+        destination["center"] = json!(map(&numbers(&destination["center"])));
+        destination["size"] = json!(destination["size"][0]);
+    }
+    let observations = observations(case).iter().map(|row| (row[0], map(&row[1..]))).collect();
+    (scenario, observations)
+}
+
+fn follow(scenario: &Json, observations: &[(f64, Vec<f64>)]) -> Predictor {
+    let mut predictor = predictor(scenario);
+    for (time, position) in observations {
+        predictor.observe(*time, position).unwrap();
+    }
+    predictor
+}
+
+#[test]
+fn a_rotated_and_shifted_movement_has_the_same_destination() {
+    let case = golden("pointing-ring12");
+    let (c, s) = (0.6, 0.8);
+    let (plain, way) = mapped(&case, 2, <[f64]>::to_vec);
+    let (turned, turned_way) = mapped(&case, 2, |p| vec![c * p[0] - s * p[1] + 5000.0, s * p[0] + c * p[1] - 300.0]);
+    for length in [2, way.len() / 2, way.len()] {
+        let mut straight = follow(&plain, &way[..length]);
+        let mut rotated = follow(&turned, &turned_way[..length]);
+        assert!(relative(rotated.probabilities(), straight.probabilities()) < 1e-9, "after {length} samples");
+        let (a, b) = (straight.state().unwrap(), rotated.state().unwrap());
+        let expected = [c * a.mean[0] - s * a.mean[1] + 5000.0, s * a.mean[0] + c * a.mean[1] - 300.0];
+        assert!(relative(&b.mean.as_slice()[..2], &expected) < 1e-9);
+    }
+}
+
+#[test]
+fn in_space_a_turn_about_any_axis_changes_nothing() {
+    let case = golden("pointing-ring12");
+    let (flat, way) = mapped(&case, 3, |p| vec![p[0], p[1], 40.0]);
+    // about (1, 1, 1): x -> y -> z -> x
+    let (turned, turned_way) = mapped(&case, 3, |p| vec![40.0, p[0], p[1]]);
+    let (skew, skew_way) = mapped(&case, 3, |p| vec![p[0], 0.6 * p[1] - 0.8 * 40.0, 0.8 * p[1] + 0.6 * 40.0]);
+    for length in [2, way.len() / 2, way.len()] {
+        let mut level = follow(&flat, &way[..length]);
+        for (scenario, way) in [(&turned, &turned_way), (&skew, &skew_way)] {
+            let mut other = follow(scenario, &way[..length]);
+            assert!(relative(other.probabilities(), level.probabilities()) < 1e-9, "after {length} samples");
+        }
+        if length == way.len() {
+            assert_eq!(level.best().unwrap().index, case["true"].as_u64().unwrap() as usize);
+        }
+    }
+}
+
+#[test]
+fn on_a_line_it_tells_left_from_right() {
+    let mut scenario = golden("pointing-grid21")["scenario"].clone();
+    scenario["motion"]["dimensions"] = json!(1);
+    scenario["destinations"] = json!([
+        { "id": "left", "center": [0], "size": [60] },
+        { "id": "near", "center": [700], "size": [60] },
+        { "id": "far", "center": [1000], "size": [60] }
+    ]);
+    let way: Vec<_> = (0..20).map(|k| (0.016 * f64::from(k), vec![500.0 + 1.2 * f64::from(k * k)])).collect();
+    let mut predictor = follow(&scenario, &way);
+    assert_eq!(predictor.best().unwrap().id, "far");
+    assert!(predictor.probabilities()[0] < 0.01);
+}
+
+#[test]
+fn destinations_come_move_and_go_in_mid_movement() {
+    let case = golden("pointing-sizes40");
+    let way: Vec<_> = observations(&case).iter().map(|row| (row[0], row[1..].to_vec())).collect();
+    let mut full = follow(&case["scenario"], &way);
+    let mut scenario = case["scenario"].clone();
+    let all = scenario["destinations"].as_array().unwrap().clone();
+    scenario["destinations"] = json!(all[..20]);
+    scenario["destinations"][3]["center"] = json!([0, 0]);
+    scenario["destinations"][4]["id"] = json!("extra");
+    let mut growing = predictor(&scenario);
+    for (k, (time, position)) in way.iter().enumerate() {
+        growing.observe(*time, position).unwrap();
+        if k == 10 {
+            growing.update_destination("t3", &value(&all[3])).unwrap();
+            growing.remove_destination("extra").unwrap();
+            growing.add_destination(&value(&all[4])).unwrap();
+            for destination in &all[20..] {
+                growing.add_destination(&value(destination)).unwrap();
+            }
+        }
+    }
+    let place: Vec<usize> = (0..all.len()).map(|i| growing.index_of(&format!("t{i}")).unwrap()).collect();
+    let found: Vec<f64> = place.iter().map(|&i| growing.probabilities()[i]).collect();
+    assert!(relative(&found, full.probabilities()) < 1e-12);
+    growing.set_destinations(&value(&case["scenario"]["destinations"])).unwrap();
+    assert!(relative(growing.probabilities(), full.probabilities()) < 1e-12);
+}
+
+#[test]
+fn a_snapshot_and_a_clone_go_on_to_the_bit() {
+    let case = golden("pointing-none");
+    let way = observations(&case);
+    let mut original = predictor(&case["scenario"]);
+    for row in &way[..30] {
+        original.observe(row[0], &row[1..]).unwrap();
+    }
+    let mut copy = original.clone();
+    let text = serde_json::to_string(&original.snapshot()).unwrap();
+    let mut restored = Predictor::restore(&serde_json::from_str(&text).unwrap()).unwrap();
+    for row in &way[30..] {
+        for predictor in [&mut original, &mut copy, &mut restored] {
+            predictor.observe(row[0], &row[1..]).unwrap();
+        }
+        assert_eq!(original.probabilities(), copy.probabilities());
+        assert_eq!(original.probabilities(), restored.probabilities());
+        assert_eq!(original.none(), restored.none());
+    }
+    assert_eq!(original.state(), restored.state());
+    assert_eq!(original.initial_state(), restored.initial_state());
+    original.reset();
+    assert!(original.state().is_none());
+}
+
+#[test]
+fn the_forecast_leads_to_the_destination() {
+    let case = golden("pointing-grid21");
+    let way: Vec<_> = observations(&case).iter().map(|row| (row[0], row[1..].to_vec())).collect();
+    let length = way.len() * 6 / 10;
+    let mut predictor = follow(&case["scenario"], &way[..length]);
+    let now = way[length - 1].0;
+    let id = format!("t{}", case["true"]);
+    let center = numbers(&case["scenario"]["destinations"][case["true"].as_u64().unwrap() as usize]["center"]);
+    let path = predictor.path(&id, &[now, now + 2.0]).unwrap();
+    let (here, there) = (&path[..2], &path[2..]);
+    let distance = |a: &[f64], b: &[f64]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    assert!(distance(here, &way[length - 1].1) < 2.0, "{here:?}");
+    // past every node the state is as on arrival: within the box, whose deviation is 96 / sqrt(12) = 28
+    assert!(distance(there, &center) < 20.0, "{there:?} against {center:?}");
+    let late = predictor.forecast(now + 2.0).unwrap().unwrap();
+    assert!(late.covariance[(0, 0)] >= predictor.state().unwrap().covariance[(0, 0)]);
+    assert!(late.covariance.clone().cholesky().is_some());
+}
+
+#[test]
+fn the_state_at_the_start_is_what_a_batch_estimate_gives() {
+    // Constant velocity without speed noise is linear, so the smoothed start is a regression that can be done by hand.
+    // With two exact observations one second apart and hardly any noise the velocity at the start is their difference.
+    let mut scenario = golden("pointing-grid21")["scenario"].clone();
+    scenario["motion"]["noise"] = json!(1e-3);
+    scenario["motion"]["speedNoise"] = json!(0);
+    scenario["observation"]["noise"] = json!(1e-3);
+    let mut predictor = predictor(&scenario);
+    predictor.observe(0.0, &[100.0, 100.0]).unwrap();
+    predictor.observe(1.0, &[130.0, 80.0]).unwrap();
+    let start = predictor.initial_state().unwrap();
+    assert!(relative(start.mean.as_slice(), &[100.0, 100.0, 30.0, -20.0]) < 1e-4, "{}", start.mean);
+}
+
+#[test]
+fn a_missing_axis_leaves_the_other_one_informed() {
+    let case = golden("pointing-grid21");
+    let way = observations(&case);
+    let mut predictor = predictor(&case["scenario"]);
+    for (k, row) in way.iter().enumerate() {
+        let y = (k % 3 != 1).then_some(row[2]);
+        predictor.observe_with(row[0], &[Some(row[1]), y], None).unwrap();
+    }
+    assert_eq!(predictor.best().unwrap().index, case["true"].as_u64().unwrap() as usize);
+    let deaf = value(&json!([1000.0, 0.5]));
+    let last = &way[way.len() - 1];
+    let before = predictor.state().unwrap().mean[0];
+    predictor.observe_with(last[0] + 0.01, &[Some(9000.0), Some(last[2])], Some(&deaf)).unwrap();
+    assert!((predictor.state().unwrap().mean[0] - before).abs() < 20.0);
+}
+
+#[test]
+fn what_the_model_cannot_take_is_named() {
+    let base = golden("pointing-grid21")["scenario"].clone();
+    let cases: [(&[&str], Json, &str); 12] = [
+        (&["pointing", "near"], json!(-1), "pointing.near: must be at least 0, got -1"),
+        (&["pointing", "uniform"], json!(2), "pointing.uniform: must be from 0 to 1, got 2"),
+        (&["pointing", "noise"], json!([]), "pointing.noise: must have 1 to 16 numbers, has 0"),
+        (&["pointing", "speed"], json!(1), "pointing.speed: unknown key \"speed\""),
+        (&["pointing", "timeToGo", "to"], json!(0.01), "pointing.timeToGo.to: must be greater than from, got 0.01"),
+        (
+            &["pointing", "timeToGo", "points"],
+            json!(1),
+            "pointing.timeToGo.points: must be a whole number from 2 to 1001",
+        ),
+        (&["motion", "noise"], json!([1, 2]), "motion.noise: must be one number with the method \"pointing\""),
+        (&["motion", "type"], json!("brownian"), "motion.speedNoise: unknown key \"speedNoise\""),
+        (&["arrival"], json!({}), "arrival: has no place with the method \"pointing\""),
+        (&["method"], json!("algorithm1"), "pointing: is for the method \"pointing\" only"),
+        (&["observation", "noise"], json!([[1, 0.5], [0.5, 1]]), "observation.noise: must have no correlation"),
+        (&["destinations", "0", "endVelocity"], json!(5), "destinations[0].endVelocity: the method \"pointing\""),
+    ];
+    for (path, new, expected) in cases {
+        let mut scenario = base.clone();
+        let pointer = format!("/{}", path[..path.len() - 1].join("/"));
+        let parent = scenario.pointer_mut(pointer.trim_end_matches('/')).unwrap();
+        parent[path[path.len() - 1]] = new;
+        let error = Scenario::from_value(&value(&scenario)).unwrap_err();
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
+    let mut scenario = base;
+    scenario.as_object_mut().unwrap().remove("pointing");
+    let error = Scenario::from_value(&value(&scenario)).unwrap_err();
+    assert_eq!((error.code(), error.path()), (Code::MissingKey, "pointing"));
+}
+
+#[test]
+fn a_scenario_is_written_as_it_was_read() {
+    let scenario = Scenario::from_value(&value(&golden("pointing-sizes40")["scenario"])).unwrap();
+    let again = Scenario::from_value(&scenario.to_value()).unwrap();
+    assert_eq!(again.to_value(), scenario.to_value());
+}
