@@ -1,0 +1,82 @@
+/** Puts the page together: pointers in, light out. */
+import { init } from "whither";
+import { DEFAULTS } from "./belief/settings.ts";
+import { Predictions } from "./belief/predictions.ts";
+import { Demonstration } from "./demonstration.ts";
+import { PLACES } from "./destinations.ts";
+import example from "./example.js?raw";
+import { haunt } from "./ghost.ts";
+import { listen } from "./movement/pointers.ts";
+import { listPapers } from "./papers.ts";
+import { Announcer } from "./view/announcer.ts";
+import { Believer } from "./view/believer.ts";
+import { Chart } from "./view/chart.ts";
+import { controls } from "./view/controls.ts";
+import { Fan } from "./view/fan.ts";
+import { Numbers } from "./view/numbers.ts";
+import { Screen } from "./view/screen.ts";
+import { theme } from "./view/theme.ts";
+
+/** An element that index.html promises. */
+function part<T extends HTMLElement = HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+const labels = PLACES.map((place) => place.label);
+const announcer = new Announcer(part("status"));
+const screen = new Screen(part("screen"), part("grid"), PLACES);
+const fan = new Fan(part<HTMLCanvasElement>("fan"));
+const chart = new Chart(part("chart"), labels);
+
+part("listing").textContent = example.trim();
+listPapers(part("paper-list"));
+theme(part<HTMLButtonElement>("theme"), () => {
+  fan.fit();
+  chart.restyle();
+});
+
+async function start(): Promise<void> {
+  await init();
+  await document.fonts.ready;
+  const predictions = new Predictions(screen.measure(), DEFAULTS);
+  const demonstration = new Demonstration(predictions, DEFAULTS, labels, {
+    screen,
+    fan,
+    chart,
+    announcer,
+    believer: new Believer({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") }, PLACES),
+    numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }),
+  });
+
+  controls(part<HTMLFormElement>("controls"), (settings) => demonstration.configure(settings));
+  screen.onKeyPress((index) => demonstration.pressWithoutPointer(index));
+  listen(() => screen.corner(), {
+    move: (pointerId, samples) => demonstration.move(pointerId, samples),
+    down(pointerId, sample, touch, target) {
+      demonstration.move(pointerId, [sample]);
+      if (touch) demonstration.end(pointerId);
+      else demonstration.press(pointerId, sample, screen.iconOf(target));
+    },
+    lift(pointerId, sample) {
+      demonstration.move(pointerId, [sample]);
+      demonstration.press(pointerId, sample, screen.iconAt(sample.x, sample.y));
+      demonstration.forget(pointerId);
+    },
+    lost: (pointerId) => demonstration.end(pointerId),
+  });
+
+  const sizes = new ResizeObserver(() => {
+    fan.fit();
+    demonstration.place();
+  });
+  sizes.observe(part("screen"));
+  sizes.observe(part("grid"));
+
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) haunt(part("ghost"), demonstration.ghost());
+}
+
+start().catch((error: unknown) => {
+  const reason = error instanceof Error ? error.message : String(error);
+  announcer.say(`The predictor could not start: ${reason}`, true);
+  document.documentElement.dataset["failed"] = "true";
+});
