@@ -2,11 +2,9 @@
 import type { Belief } from "../belief/predictions.ts";
 import type { Place } from "../destinations.ts";
 import { percent, seconds } from "./format.ts";
+import { reorder } from "./order.ts";
 
 const SHOWN = 5;
-
-/** Two rows change places only when they differ by more than this, so that equals do not flicker. */
-const MARGIN = 0.004;
 
 interface Row {
   readonly element: HTMLElement;
@@ -54,20 +52,6 @@ export class Believer {
     write(this.#parts.remaining, timeToGo ? seconds(timeToGo.mean) : "–");
     write(this.#parts.interval, timeToGo ? `80%: ${timeToGo.low.toFixed(2)} to ${timeToGo.high.toFixed(2)} s` : "");
   }
-}
-
-/** Most probable first; near-equals keep the places that they had. */
-export function reorder(order: readonly number[], probabilities: ArrayLike<number>): number[] {
-  const result = [...order];
-  const of = (index: number | undefined) => (index === undefined ? 0 : (probabilities[index] ?? 0));
-  for (let sorted = 1; sorted < result.length; sorted += 1) {
-    for (let at = sorted; at > 0 && of(result[at]) > of(result[at - 1]) + MARGIN; at -= 1) {
-      const moved = result[at] as number;
-      result[at] = result[at - 1] as number;
-      result[at - 1] = moved;
-    }
-  }
-  return result;
 }
 
 /** Leaves the document alone when nothing changes. */

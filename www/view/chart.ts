@@ -2,18 +2,11 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Moment, Outcome } from "../movement/history.ts";
+import { bandsOf, OWN, stack, type Band } from "./bands.ts";
 import { milliseconds } from "./format.ts";
-
-/** Icons with an area of their own; the rest share one. */
-const OWN = 4;
 
 /** A movement shorter than this does not fill the width (seconds). */
 const SHORTEST = 0.6;
-
-interface Band {
-  readonly label: string;
-  readonly values: readonly number[];
-}
 
 export class Chart {
   readonly #root: HTMLElement;
@@ -156,30 +149,6 @@ function heaviest(times: readonly number[], values: readonly number[]): number {
   });
   const middle = moment / sum;
   return values.reduce((best, _, index) => (Math.abs((times[index] ?? 0) - middle) < Math.abs((times[best] ?? 0) - middle) ? index : best), 0);
-}
-
-/** The one in question at the bottom, then the most probable ones over the whole movement, then all others together. */
-export function bandsOf(moments: readonly Moment[], labels: readonly string[], first: number): Band[] {
-  const weight = labels.map((_, index) => moments.reduce((sum, moment) => sum + (moment.probabilities[index] ?? 0), 0));
-  const rest = labels.map((_, index) => index).filter((index) => index !== first);
-  rest.sort((a, b) => (weight[b] ?? 0) - (weight[a] ?? 0));
-  const own = [first, ...rest.slice(0, OWN - 1)];
-  const others = rest.slice(OWN - 1);
-  const of = (moment: Moment, index: number) => moment.probabilities[index] ?? 0;
-  return [
-    ...own.map((index) => ({ label: labels[index] ?? "", values: moments.map((moment) => of(moment, index)) })),
-    { label: "Others", values: moments.map((moment) => others.reduce((sum, index) => sum + of(moment, index), 0)) },
-  ];
-}
-
-/** Each column on top of the ones before it. */
-export function stack(columns: readonly (readonly number[])[]): number[][] {
-  const sums: number[][] = [];
-  for (const column of columns) {
-    const below = sums.at(-1);
-    sums.push(column.map((value, index) => value + (below?.[index] ?? 0)));
-  }
-  return sums;
 }
 
 function area(fill: string, edge: string): uPlot.Series {

@@ -1,5 +1,6 @@
 /** What is expected, drawn in light: a path to each of the leading three and the forecast's one-deviation ellipse. */
 import type { Outlook } from "../belief/predictions.ts";
+import { ellipse } from "./ellipse.ts";
 
 export class Fan {
   readonly #canvas: HTMLCanvasElement;
@@ -45,7 +46,7 @@ export class Fan {
       trace(context, points);
       context.stroke();
     }
-    const shape = ellipse(outlook);
+    const shape = ellipse(outlook.covariance, outlook.states);
     context.beginPath();
     context.ellipse(outlook.mean[0] ?? 0, outlook.mean[1] ?? 0, shape.long, shape.short, shape.angle, 0, 2 * Math.PI);
     context.globalAlpha = 0.07;
@@ -67,18 +68,4 @@ function trace(context: CanvasRenderingContext2D, points: ArrayLike<number>): vo
     context.quadraticCurveTo(x(place), y(place), (x(place) + x(place + 1)) / 2, (y(place) + y(place + 1)) / 2);
   }
   context.lineTo(x(last), y(last));
-}
-
-/** The principal axes of the position's covariance, one deviation long. */
-export function ellipse({ covariance, states }: Pick<Outlook, "covariance" | "states">): { long: number; short: number; angle: number } {
-  const xx = covariance[0] ?? 0;
-  const xy = covariance[1] ?? 0;
-  const yy = covariance[states + 1] ?? 0;
-  const middle = (xx + yy) / 2;
-  const spread = Math.hypot((xx - yy) / 2, xy);
-  return {
-    long: Math.sqrt(Math.max(0, middle + spread)),
-    short: Math.sqrt(Math.max(0, middle - spread)),
-    angle: Math.atan2(2 * xy, xx - yy) / 2,
-  };
 }

@@ -2,6 +2,7 @@
 import { createElement } from "lucide";
 import type { PointerTarget } from "whither";
 import type { Place } from "../destinations.ts";
+import { destinationOf } from "./walk.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -87,14 +88,6 @@ export class Screen {
     const top = this.#buttons[0]?.offsetTop;
     return this.#buttons.filter((each) => each.offsetTop === top).length;
   }
-}
-
-/** Left and right walk in reading order, up and down by a row, Home and End to the ends. */
-export function destinationOf(key: string, here: number, columns: number, count: number): number | null {
-  const steps: Record<string, number> = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: columns, ArrowUp: -columns };
-  const ends: Record<string, number> = { Home: 0, End: count - 1 };
-  const next = ends[key] ?? here + (steps[key] ?? Number.NaN);
-  return next >= 0 && next < count ? next : null;
 }
 
 function button(place: Place): HTMLButtonElement {

@@ -1,0 +1,37 @@
+// Takes the README's picture from the built page, in the middle of a movement: docs/page.png.
+import { mkdir, stat, writeFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+import { movement } from "../tests/browser/hand.mjs";
+import { launch, middles, mouse, open, read, serve } from "../tests/browser/support.mjs";
+
+const file = fileURLToPath(new URL("../docs/page.png", import.meta.url));
+
+/** A README is read over slow lines, too. */
+const LARGEST = 200_000;
+
+const host = await serve();
+const browser = await launch();
+const { page, sins } = await open(browser, host.url, { viewport: { width: 1280, height: 800 } });
+const hand = await mouse(page);
+const icons = new Map((await middles(page)).map((icon) => [icon.id, icon]));
+
+const tour = ["tyres", "camera", "parking", "settings", "navigation", "weather"].map((id) => icons.get(id));
+await hand.play([[0, tour[0].x, tour[0].y]]);
+for (const [index, to] of tour.slice(1).entries()) {
+  await hand.rest(0.3);
+  await hand.play(movement(tour[index], to, to.width, { seed: index }));
+  await hand.rest(0.06);
+  await hand.press(to);
+}
+await hand.rest(0.6);
+await hand.play(movement(tour.at(-1), icons.get("drive-mode"), icons.get("drive-mode").width, { seed: 9, share: 0.62 }));
+await read(page);
+await page.waitForTimeout(900);
+await mkdir(new URL("../docs/", import.meta.url), { recursive: true });
+await writeFile(file, await page.screenshot());
+await browser.close();
+host.close();
+
+const { size } = await stat(file);
+if (sins.length > 0 || size > LARGEST) throw new Error([`docs/page.png has ${size} bytes`, ...sins].join("\n"));
+console.log(`docs/page.png: ${size} bytes`);

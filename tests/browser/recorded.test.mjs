@@ -1,0 +1,91 @@
+// Recorded hands on the same page. The recordings are not part of the project: without them this says so and is skipped.
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { after, before, describe, it } from "node:test";
+import { launch, middles, mouse, open, read, serve } from "./support.mjs";
+
+const DATA = new URL("../../../shared/data/", import.meta.url);
+const SETS = [
+  ["sapimouse.jsonl", 20],
+  ["bunch_mouse.jsonl", 15],
+  ["freihaut_pointclick.jsonl", 15],
+];
+const absent = SETS.map(([name]) => name).filter((name) => !existsSync(new URL(name, DATA)));
+const skip = absent.length > 0 && `the recorded tracks ${absent.join(", ")} are not beside the project, in ../shared/data`;
+
+describe("recorded hands", { skip }, () => {
+  let host, browser;
+
+  before(async () => {
+    host = await serve();
+    browser = await launch();
+  });
+  after(async () => {
+    await browser.close();
+    host.close();
+  });
+
+  it("are understood: 50 tracks, each moved so that it ends in the icon that it is nearest to in length and angle", async (test) => {
+    const { page, sins, close } = await open(browser, host.url);
+    const hand = await mouse(page);
+    const icons = await middles(page);
+    let rightAtPress = 0;
+    let rightAtThreeQuarters = 0;
+    let count = 0;
+    for (const [name, wanted] of SETS) {
+      for (const track of await evenly(name, wanted)) {
+        count += 1;
+        const { samples, icon } = onPage(track, icons);
+        const start = samples[0];
+        const half = samples.findIndex(([time]) => time > 0.75 * samples.at(-1)[0]);
+        await hand.play([[0, start[1], start[2]]]);
+        await hand.rest(0.15);
+        await hand.play(samples.slice(0, half));
+        if ((await read(page)).top.id === icon.id) rightAtThreeQuarters += 1;
+        await hand.play(samples.slice(half).map(([time, x, y]) => [time - samples[half][0], x, y]));
+        const shown = await read(page);
+        assert.ok(Math.abs(shown.sum - 1) < 1e-4, `${track.id}: the sum is ${shown.sum}`);
+        if (shown.top.id === icon.id) rightAtPress += 1;
+        await hand.press({ x: samples.at(-1)[1], y: samples.at(-1)[2] });
+      }
+    }
+    const shown = await page.evaluate(() => ["median", "early-right", "early-wrong", "presses"].map((id) => document.getElementById(id).textContent));
+    test.diagnostic(`right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page says ${shown.join(", ")}`);
+    assert.equal(count, 50);
+    assert.equal(shown[3], "Over 50 presses");
+    assert.deepEqual(sins, []);
+    await close();
+  });
+});
+
+/** Tracks from all over a file. */
+async function evenly(name, wanted) {
+  const lines = (await readFile(new URL(name, DATA), "utf8")).trim().split("\n");
+  return Array.from({ length: wanted }, (_, index) => JSON.parse(lines[Math.floor(((index + 0.5) * lines.length) / wanted)]));
+}
+
+/** A similarity transform takes the track to the pair of icons that asks for the least turn and change of size. */
+function onPage(track, icons) {
+  const first = track.samples[0];
+  const last = track.samples.at(-1);
+  const [dx, dy] = [last[1] - first[1], last[2] - first[2]];
+  const norm = dx ** 2 + dy ** 2;
+  let best = null;
+  for (const from of icons) {
+    for (const icon of icons) {
+      if (icon === from) continue;
+      const [ex, ey] = [icon.x - from.x, icon.y - from.y];
+      // The complex ratio of the two displacements: how much longer, and turned by which angle.
+      const [real, imaginary] = [(ex * dx + ey * dy) / norm, (ey * dx - ex * dy) / norm];
+      const change = Math.hypot(Math.log(Math.hypot(real, imaginary)), Math.atan2(imaginary, real));
+      if (best === null || change < best.change) best = { change, from, icon, real, imaginary };
+    }
+  }
+  const { from, icon, real, imaginary } = best;
+  const samples = track.samples.map(([time, x, y]) => {
+    const [ax, ay] = [x - first[1], y - first[2]];
+    return [time, from.x + real * ax - imaginary * ay, from.y + imaginary * ax + real * ay];
+  });
+  return { samples, icon };
+}

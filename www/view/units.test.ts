@@ -1,0 +1,70 @@
+import assert from "node:assert/strict";
+import { describe, it } from "node:test";
+import { bandsOf, stack } from "./bands.ts";
+import { ellipse } from "./ellipse.ts";
+import { milliseconds, percent, seconds } from "./format.ts";
+import { reorder } from "./order.ts";
+import { destinationOf } from "./walk.ts";
+
+describe("format", () => {
+  it("never calls the nearly certain certain, nor the possible impossible", () => {
+    assert.deepEqual([0, 0.002, 0.0449, 0.5, 0.994, 0.998, 1].map(percent), ["0%", "<1%", "4%", "50%", "99%", ">99%", "100%"]);
+  });
+
+  it("gives times with the figures that they are good for", () => {
+    assert.equal(seconds(0.3149), "0.31 s");
+    assert.equal(milliseconds(0.3149), "315 ms");
+  });
+});
+
+describe("order of the rows", () => {
+  it("puts the most probable first", () => {
+    assert.deepEqual(reorder([0, 1, 2], [0.1, 0.2, 0.7]), [2, 1, 0]);
+  });
+
+  it("leaves near-equals where they were", () => {
+    assert.deepEqual(reorder([2, 0, 1], [0.301, 0.3, 0.3]), [2, 0, 1]);
+  });
+});
+
+describe("arrow keys", () => {
+  it("walk in reading order, by rows, and to the ends", () => {
+    const keys = ["ArrowRight", "ArrowLeft", "ArrowUp", "ArrowDown", "Home", "End"];
+    assert.deepEqual(keys.map((key) => destinationOf(key, 7, 7, 21)), [8, 6, 0, 14, 0, 20]);
+  });
+
+  it("stop at the ends, and leave other keys alone", () => {
+    assert.equal(destinationOf("ArrowLeft", 0, 7, 21), null);
+    assert.equal(destinationOf("ArrowDown", 14, 7, 21), null);
+    assert.equal(destinationOf("a", 3, 7, 21), null);
+  });
+});
+
+describe("bands", () => {
+  const moment = (time: number, ...probabilities: number[]) => ({ time, probabilities: Float64Array.from(probabilities), none: 0, leader: 0 });
+  const labels = ["a", "b", "c", "d", "e", "f"];
+
+  it("put the one in question at the bottom, then the weightiest, then all others as one", () => {
+    const bands = bandsOf([moment(0, 0.05, 0.1, 0.2, 0.3, 0.15, 0.2), moment(1, 0.05, 0.1, 0.3, 0.3, 0.05, 0.2)], labels, 1);
+    assert.deepEqual(bands.map((band) => band.label), ["b", "d", "c", "f", "Others"]);
+    assert.ok(Math.abs((bands[4]?.values[0] ?? 0) - 0.2) < 1e-12);
+  });
+
+  it("stand on one another", () => {
+    assert.deepEqual(stack([[1, 2], [3, 4], [5, 6]]), [[1, 2], [4, 6], [9, 12]]);
+  });
+});
+
+describe("ellipse", () => {
+  it("has the deviations as its axes", () => {
+    const { long, short, angle } = ellipse([9, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 4);
+    assert.deepEqual([long, short, Math.abs(angle)], [3, 2, 0]);
+  });
+
+  it("lies along the correlation", () => {
+    const { long, short, angle } = ellipse([5, 3, 3, 5], 2);
+    assert.ok(Math.abs(long - Math.sqrt(8)) < 1e-12);
+    assert.ok(Math.abs(short - Math.sqrt(2)) < 1e-12);
+    assert.ok(Math.abs(angle - Math.PI / 4) < 1e-12);
+  });
+});
