@@ -30,7 +30,7 @@ await page.waitForTimeout(900);
 await mkdir(new URL("../docs/", import.meta.url), { recursive: true });
 await writeFile(file, await page.screenshot());
 await browser.close();
-host.close();
+await host.close();
 
 const { size } = await stat(file);
 if (sins.length > 0 || size > LARGEST) throw new Error([`docs/page.png has ${size} bytes`, ...sins].join("\n"));

@@ -120,9 +120,10 @@ export class Demonstration {
     this.#quieten();
   }
 
-  /** The icons may have moved. */
+  /** The icons may have moved. While the page is taken down or not laid out they have no size. */
   place(): void {
-    this.#predictions.place(this.#views.screen.measure());
+    const targets = this.#views.screen.measure();
+    if (targets.every(({ width, height }) => width > 0 && height > 0)) this.#predictions.place(targets);
   }
 
   /** The stage on which the ghost plays. */

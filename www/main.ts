@@ -48,7 +48,13 @@ async function start(): Promise<void> {
     numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }),
   });
 
-  controls(part<HTMLFormElement>("controls"), (settings) => demonstration.configure(settings));
+  controls(part<HTMLFormElement>("controls"), (settings) => {
+    try {
+      demonstration.configure(settings);
+    } catch (error) {
+      announcer.say(`These settings do not go together: ${reasonOf(error)}`, true);
+    }
+  });
   screen.onKeyPress((index) => demonstration.pressWithoutPointer(index));
   listen(() => screen.corner(), {
     move: (pointerId, samples) => demonstration.move(pointerId, samples),
@@ -75,8 +81,11 @@ async function start(): Promise<void> {
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) haunt(part("ghost"), demonstration.ghost());
 }
 
+function reasonOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 start().catch((error: unknown) => {
-  const reason = error instanceof Error ? error.message : String(error);
-  announcer.say(`The predictor could not start: ${reason}`, true);
+  announcer.say(`The predictor could not start: ${reasonOf(error)}`, true);
   document.documentElement.dataset["failed"] = "true";
 });

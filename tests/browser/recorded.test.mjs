@@ -23,7 +23,7 @@ describe("recorded hands", { skip }, () => {
   });
   after(async () => {
     await browser.close();
-    host.close();
+    await host.close();
   });
 
   it("are understood: 50 tracks, each moved so that it ends in the icon that it is nearest to in length and angle", async (test) => {

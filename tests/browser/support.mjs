@@ -1,52 +1,15 @@
-// What the browser tests share: the built page on a static host, Chromium, and hands that move its real pointer.
-import assert from "node:assert/strict";
-import { createReadStream, existsSync } from "node:fs";
-import { createServer } from "node:http";
-import { extname, join, normalize } from "node:path";
-import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
+// What the browser tests share: the built page on a static host, and hands that move Chromium's real pointer.
+import { serve as serveFolder } from "../../scripts/serve.mjs";
+import { folder } from "../../scripts/build-demo.mjs";
 
-const BUILT = fileURLToPath(new URL("../../www/dist/", import.meta.url));
-
-/** A sub-path, as on any shared static host. */
-const BASE = "/some/where/";
-
-const TYPES = {
-  ".css": "text/css",
-  ".html": "text/html; charset=utf-8",
-  ".js": "text/javascript",
-  ".svg": "image/svg+xml",
-  ".woff2": "font/woff2",
-};
+export { launch } from "../../scripts/chromium.mjs";
 
 /** Nothing from elsewhere, nothing inline; WebAssembly is all that the package asks for. */
 const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; font-src 'self'; img-src 'self'";
 
-/** Serves the built page from a sub-path until closed. */
-export async function serve(policy = POLICY) {
-  assert.ok(existsSync(join(BUILT, "index.html")), "www/dist is missing: npm run build:demo makes it");
-  const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, "http://localhost");
-    const path = normalize(pathname.slice(BASE.length) || "index.html");
-    const file = join(BUILT, path);
-    if (!pathname.startsWith(BASE) || path.startsWith("..") || !existsSync(file)) {
-      response.writeHead(404).end();
-      return;
-    }
-    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", "content-security-policy": policy });
-    createReadStream(file).pipe(response);
-  });
-  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  return { url: `http://127.0.0.1:${server.address().port}${BASE}`, close: () => server.close() };
-}
-
-/** The first Chromium of the usual names; CHROMIUM names another one. */
-export function launch() {
-  const usual = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
-  const executablePath = process.env["CHROMIUM"] ?? usual.find((path) => existsSync(path));
-  assert.ok(executablePath, "no Chromium: install it (Debian: apt-get install chromium) or name it in CHROMIUM");
-  const quiet = ["quic", "background-networking", "component-update", "sync", "gpu"].map((name) => `--disable-${name}`);
-  return chromium.launch({ executablePath, args: ["--no-sandbox", "--no-first-run", ...quiet] });
+/** Serves the built page from a sub-path, as on any shared static host. */
+export function serve(policy = POLICY) {
+  return serveFolder(folder, { path: "/some/where/", headers: { "content-security-policy": policy } });
 }
 
 /** A page that is ready, with everything that it must not do collected in `sins`. */

@@ -88,8 +88,8 @@ export class Predictions {
     const last = arrival.times.at(-1) ?? now;
     const times = Array.from({ length: PATH_POINTS }, (_, step) => now + ((last - now) * step) / (PATH_POINTS - 1));
     const paths = leaders.map((index) => ({ index, points: predictor.path(this.#targets[index]?.id ?? "", times) }));
-    const { mean, covariance } = predictor.forecast(Math.max(now, arrival.mean));
-    return { paths, mean, covariance, states: mean.length };
+    const forecast = predictor.forecast(Math.max(now, arrival.mean));
+    return forecast && { paths, ...forecast, states: forecast.mean.length };
   }
 
   #track(pointerId: number): Predictor {

@@ -27,8 +27,8 @@ export function pointsOf(method: Method): number {
   return method === "pointing" ? DEFAULTS.points : 15;
 }
 
-/** "None of them" weighs as much as this many icons before anything is seen. */
-const NONE = 1;
+/** The probability of "none of them" before anything is seen: about that of one icon more. */
+const NONE = 0.05;
 
 /** The papers' methods set up for hands: constant velocity, in px and seconds; what the papers leave open, wide. */
 const HAND_NOISE = 3000;
@@ -50,7 +50,8 @@ export function scenarioOf(targets: readonly PointerTarget[], settings: Settings
     initial: { velocity: HAND_SPEED },
     arrival: ACCUMULATING.includes(settings.method) ? WHOLE_TIME : TIME_TO_GO,
     quadrature: { rule: "simpson", points: settings.points },
-    none: NONE,
+    // Known up to a factor only, its likelihoods cannot be weighed against "none of them".
+    none: settings.method === "singleFilterApproximate" ? 0 : NONE,
     destinations: targets.map(({ id, x, y, width, height }) => ({ id, center: [x, y], size: [width, height], endVelocity: END_SPEED })),
   };
 }

@@ -48,11 +48,12 @@ export interface Outcome {
   readonly early: number | null;
 }
 
-/** What a press on `chosen` at time `pressed` says about the movement before it. */
+/** What a press on `chosen` at time `pressed` says about the movement before it: what is known at the press comes too late. */
 export function judge(moments: readonly Moment[], chosen: number, pressed: number, threshold: number): Outcome {
   let rightSince: number | null = null;
   let early: number | null = null;
   for (const moment of moments) {
+    if (moment.time >= pressed) break;
     if (moment.leader !== chosen) rightSince = null;
     else rightSince ??= moment.time;
     if (early === null && (moment.probabilities[moment.leader] ?? 0) >= threshold) early = moment.leader;

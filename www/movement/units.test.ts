@@ -79,6 +79,10 @@ describe("judge", () => {
     assert.equal(outcome.early, 1);
   });
 
+  it("does not credit what became known at the press itself", () => {
+    assert.deepEqual(judge(moments, 1, 1.3, 0.8), { chosen: 1, pressed: 1.3, rightSince: null, lead: 0, early: null });
+  });
+
   it("gives no lead to what was not on top at the press", () => {
     const outcome = judge(moments, 0, 1.65, 0.65);
     assert.deepEqual(outcome, { chosen: 0, pressed: 1.65, rightSince: null, lead: 0, early: 1 });
