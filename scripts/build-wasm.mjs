@@ -36,7 +36,7 @@ export async function buildWasm() {
   });
 }
 
-/** The flags are set here and not left to .cargo/config.toml, which an environment RUSTFLAGS would silently replace. */
+/** These flags replace those of .cargo/config.toml. */
 async function compile() {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [

@@ -5,6 +5,14 @@ import { fileURLToPath } from "node:url";
 /** The repository. */
 export const root = fileURLToPath(new URL("..", import.meta.url));
 
+/**
+ * The user's environment, but for the compiler flags in it: they would silently replace those of .cargo/config.toml, SIMD among
+ * them, and reach what builds the package.
+ */
+const environment = { ...process.env };
+delete environment.RUSTFLAGS;
+delete environment.CARGO_ENCODED_RUSTFLAGS;
+
 /** A failure that is told in one sentence, without a stack. */
 export class Failure extends Error {}
 
@@ -16,7 +24,7 @@ export function capture(program, args, { env = {}, cwd = root, show = false } = 
   return new Promise((resolve, reject) => {
     const child = spawn(program, args, {
       cwd,
-      env: { ...process.env, ...env },
+      env: { ...environment, ...env },
       stdio: ["ignore", "pipe", "pipe"],
       // On Windows npm is a script, which only a shell can start.
       shell: process.platform === "win32" && program === "npm",
