@@ -3,11 +3,17 @@
  *
  * @module
  */
-import start, { Engine, initSync as startNow, pointer_scenario, type InitOutput } from "./generated/whither.js";
+import start, {
+  Engine,
+  initSync as startNow,
+  pointer_scenario,
+  SequenceEngine,
+  type InitOutput,
+} from "./generated/whither.js";
 import { WhitherError } from "./error.js";
 import { compiled, compiledNow, unavailable, type CompiledModule, type WasmSource } from "./source.js";
 
-export { Engine, pointer_scenario };
+export { Engine, pointer_scenario, SequenceEngine };
 
 let running: InitOutput | undefined;
 let loading: Promise<void> | undefined;
@@ -26,7 +32,7 @@ export function load(source: () => WasmSource): Promise<void> {
 
 async function instantiate(source: () => WasmSource): Promise<void> {
   if (running) return;
-  const module = await compiled(source());
+  const module = ours(await compiled(source()));
   try {
     running = await start({ module_or_path: module });
   } catch (error) {
@@ -43,12 +49,21 @@ async function instantiate(source: () => WasmSource): Promise<void> {
  */
 export function initSync(options: { module: CompiledModule | ArrayBuffer | ArrayBufferView }): void {
   if (running) return;
-  const module = compiledNow(options?.module);
+  const module = ours(compiledNow(options?.module));
   try {
     running = startNow({ module });
   } catch (error) {
     throw unfit(error);
   }
+}
+
+/** The generated code would keep whatever it is given, so another module must not reach it. */
+function ours(module: WebAssembly.Module): WebAssembly.Module {
+  const missing = ["__wbindgen_start", "engine_new"].find(
+    (name) => !WebAssembly.Module.exports(module).some((item) => item.name === name),
+  );
+  if (missing !== undefined) throw unfit(new Error(`it has no ${missing}`));
+  return module;
 }
 
 function unfit(error: unknown): WhitherError {

@@ -1,6 +1,8 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { WhitherError } from "./error.js";
+import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./glue.js";
+import { disposable, freed } from "./lifetime.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
 import { decodeTree, encode, isList, MOST_ITEMS } from "./value.js";
 
@@ -51,14 +53,6 @@ export interface Remaining {
   readonly high: number;
 }
 
-/** A Gaussian density of the state: all positions, then all velocities, then all accelerations. */
-export interface Gaussian {
-  /** The mean, one number for each of the `s` states. */
-  readonly mean: Float64Array;
-  /** The covariance, `s * s` numbers, row by row. */
-  readonly covariance: Float64Array;
-}
-
 /** All that a predictor knows, as plain JSON. It is for {@link Predictor.restore} to read. */
 export interface Snapshot {
   /** The version of the snapshot's form. */
@@ -100,7 +94,7 @@ export class Predictor {
    */
   constructor(scenario: Scenario) {
     loaded();
-    // Only `clone` and `restore` have an engine to hand in: users never meet one.
+    // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = scenario;
     this.#engine = given instanceof Engine ? given : new Engine(...encode(given));
   }
@@ -213,12 +207,14 @@ export class Predictor {
 
   /** The state now, given that the object goes to one of the destinations; null before the first observation. */
   state(): Gaussian | null {
-    return gaussian(this.#live().state());
+    const numbers = this.#live().state();
+    return numbers ? gaussian(numbers) : null;
   }
 
   /** The state at the first observation, given all that came since; null before it. */
   initialState(): Gaussian | null {
-    return gaussian(this.#live().initial_state());
+    const numbers = this.#live().initial_state();
+    return numbers ? gaussian(numbers) : null;
   }
 
   /**
@@ -226,10 +222,11 @@ export class Predictor {
    *
    * @param time - Seconds on the clock of the observations, at least the last observation's.
    * @returns null before the first observation.
-   * @throws {@link WhitherError} `time-not-increasing`, `not-finite`.
+   * @throws {@link WhitherError} `out-of-range`, `not-finite`.
    */
   forecast(time: number): Gaussian | null {
-    return gaussian(this.#live().forecast(...encode({ time })));
+    const numbers = this.#live().forecast(...encode({ time }));
+    return numbers ? gaussian(numbers) : null;
   }
 
   /**
@@ -238,7 +235,7 @@ export class Predictor {
    * @param id - The destination.
    * @param times - Seconds on the clock of the observations, at least the last observation's.
    * @returns `d` coordinates for each time, one time behind the other.
-   * @throws {@link WhitherError} `unknown-id`, `time-not-increasing`, `not-finite`.
+   * @throws {@link WhitherError} `unknown-id`, `out-of-range`, `not-finite`.
    */
   path(id: string, times: Vector): Float64Array {
     return this.#live().path(...encode({ id, times }));
@@ -291,7 +288,7 @@ export class Predictor {
 
   /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */
   clone(): Predictor {
-    return Predictor.#of(this.#live().duplicate());
+    return adopt(this.#live().duplicate());
   }
 
   /**
@@ -314,7 +311,7 @@ export class Predictor {
    */
   static restore(snapshot: Snapshot): Predictor {
     loaded();
-    return Predictor.#of(Engine.restore(...encode(snapshot, "snapshot")));
+    return adopt(Engine.restore(...encode(snapshot, "snapshot")));
   }
 
   /**
@@ -328,25 +325,11 @@ export class Predictor {
   }
 
   static {
-    // Not every engine has Symbol.dispose yet.
-    if (typeof Symbol.dispose === "symbol") {
-      Object.defineProperty(Predictor.prototype, Symbol.dispose, {
-        value(this: Predictor) {
-          if (this.#engine) this.free();
-        },
-        configurable: true,
-        writable: true,
-      });
-    }
-  }
-
-  static #of(engine: Engine): Predictor {
-    return new Predictor(engine as unknown as Scenario);
+    disposable(this.prototype, (predictor) => predictor.#engine && predictor.free());
   }
 
   #live(): Engine {
-    if (this.#engine) return this.#engine;
-    throw new WhitherError("freed", "", "this predictor was freed");
+    return this.#engine ?? freed("predictor");
   }
 
   /** One number for each destination, at `address` in the module's memory: good until the next call into it. */
@@ -364,11 +347,8 @@ export interface Predictor {
   [Symbol.dispose](): void;
 }
 
-function gaussian(numbers: Float64Array | undefined): Gaussian | null {
-  if (numbers === undefined) return null;
-  // s numbers and s * s numbers.
-  const states = Math.round(Math.sqrt(numbers.length + 0.25) - 0.5);
-  return { mean: numbers.slice(0, states), covariance: numbers.slice(states) };
+function adopt(engine: unknown): Predictor {
+  return new Predictor(engine as Scenario);
 }
 
 function copy(numbers: Float64Array, into: Float64Array | undefined): Float64Array {

@@ -31,7 +31,7 @@ export interface Scenario {
   readonly observation: Observation;
   /** What is known of it before the first observation. */
   readonly initial?: Initial | undefined;
-  /** When it arrives. Not used by the method `pointing`. */
+  /** When it arrives: needed by every method but `pointing`, which does not take it. */
   readonly arrival?: Arrival | undefined;
   /** How the arrival time is summed over. @defaultValue Simpson's rule with 15 points */
   readonly quadrature?: Quadrature | undefined;

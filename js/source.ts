@@ -42,6 +42,7 @@ export async function compiled(source: WasmSource): Promise<WebAssembly.Module> 
   try {
     given = await source;
   } catch (error) {
+    if (error instanceof WhitherError) throw error;
     throw unavailable(`the promise of it was rejected: ${reason(error)}`, error);
   }
   if (given instanceof WebAssembly.Module) return given;

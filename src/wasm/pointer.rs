@@ -1,0 +1,35 @@
+//! What `js/pointer.ts` stands on.
+
+use super::Result;
+use super::tree::{self, Tree};
+use crate::pointer::{self, PointerOptions, PointerTarget};
+use crate::value::Node;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The scenario for `{ targets, options? }` on a screen.
+#[wasm_bindgen]
+pub fn pointer_scenario(numbers: &[f64], text: &str) -> Result<Tree> {
+    let value = tree::read(numbers, text)?;
+    let node = Node::root(&value, "");
+    let fields = node.fields(&["targets", "options"])?;
+    let targets =
+        fields.required("targets")?.items()?.map(|item| pointer_target(&item)).collect::<crate::Result<Vec<_>>>()?;
+    let mut options = PointerOptions::default();
+    if let Some(given) = fields.optional("options")
+        && let Some(none) = given.fields(&["none"])?.optional("none")
+    {
+        options.none = none.number()?;
+    }
+    Ok(Tree::new(&pointer::pointer_scenario(&targets, options)?.to_value()))
+}
+
+fn pointer_target(node: &Node<'_>) -> crate::Result<PointerTarget> {
+    let fields = node.fields(&["id", "x", "y", "width", "height"])?;
+    Ok(PointerTarget {
+        id: fields.required("id")?.text()?.to_owned(),
+        x: fields.required("x")?.number()?,
+        y: fields.required("y")?.number()?,
+        width: fields.required("width")?.positive()?,
+        height: fields.required("height")?.positive()?,
+    })
+}

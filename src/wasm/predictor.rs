@@ -1,0 +1,188 @@
+//! What `js/predictor.ts` stands on.
+
+use super::tree::{self, Tree};
+use super::{Result, flat};
+use crate::predictor::Predictor;
+use crate::scenario::Scenario;
+use crate::value::{Node, Value};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// What a JavaScript `Predictor` holds.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Engine {
+    predictor: Predictor,
+}
+
+#[wasm_bindgen]
+impl Engine {
+    /// From a scenario.
+    #[wasm_bindgen(constructor)]
+    pub fn new(numbers: &[f64], text: &str) -> Result<Engine> {
+        let scenario = Scenario::from_value(&tree::read(numbers, text)?)?;
+        Ok(Self { predictor: Predictor::new(&scenario)? })
+    }
+
+    /// From a snapshot.
+    pub fn restore(numbers: &[f64], text: &str) -> Result<Engine> {
+        Ok(Self { predictor: Predictor::restore(&tree::read(numbers, text)?)? })
+    }
+
+    /// A second engine in the same state.
+    pub fn duplicate(&self) -> Engine {
+        Self { predictor: self.predictor.clone() }
+    }
+
+    /// A snapshot.
+    pub fn snapshot(&self) -> Tree {
+        Tree::new(&self.predictor.snapshot())
+    }
+
+    /// An observation of the first `count` of three numbers.
+    pub fn observe(&mut self, time: f64, count: usize, x: f64, y: f64, z: f64) -> Result<()> {
+        let position = [x, y, z];
+        let count = count.min(position.len());
+        Ok(self.predictor.observe(time, &position[..count])?)
+    }
+
+    /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
+    pub fn observe_in_full(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let fields = node.fields(&["time", "position", "noise"])?;
+        let time = fields.required("time")?.number()?;
+        let position = fields.required("position")?;
+        let coordinate = |item: Node<'_>| match item.value() {
+            Value::Null => Ok(None),
+            _ => item.number().map(Some),
+        };
+        let position = position.items()?.map(coordinate).collect::<crate::Result<Vec<_>>>()?;
+        let noise = fields.optional("noise");
+        Ok(self.predictor.observe_with(time, &position, noise.as_ref().map(Node::value))?)
+    }
+
+    /// The number of destinations.
+    pub fn len(&self) -> usize {
+        self.predictor.len()
+    }
+
+    /// The ids of the destinations.
+    pub fn ids(&self) -> Vec<String> {
+        self.predictor.ids().map(ToOwned::to_owned).collect()
+    }
+
+    /// The id of one destination.
+    pub fn id(&self, index: usize) -> Option<String> {
+        self.predictor.ids().nth(index).map(ToOwned::to_owned)
+    }
+
+    /// Where the probabilities of the destinations are.
+    pub fn probabilities(&mut self) -> *const f64 {
+        self.predictor.probabilities().as_ptr()
+    }
+
+    /// Where the log likelihoods of the destinations are.
+    pub fn log_likelihoods(&mut self) -> *const f64 {
+        self.predictor.log_likelihoods().as_ptr()
+    }
+
+    /// The probability of none of them.
+    pub fn none(&mut self) -> f64 {
+        self.predictor.none()
+    }
+
+    /// The place of the most probable destination.
+    pub fn best(&mut self) -> Option<usize> {
+        self.predictor.best().map(|best| best.index)
+    }
+
+    /// Whether every arrival node has passed.
+    pub fn expired(&self) -> bool {
+        self.predictor.expired()
+    }
+
+    /// The arrival time for `{ id? }`: mean, deviation, the times, their probabilities.
+    pub fn arrival(&mut self, numbers: &[f64], text: &str) -> Result<Option<Vec<f64>>> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let id = node.get("id");
+        let id = id.as_ref().map(Node::text).transpose()?;
+        let arrival = self.predictor.arrival(id)?;
+        Ok(arrival.map(|arrival| {
+            let mut flat = vec![arrival.mean, arrival.deviation];
+            flat.extend(arrival.times);
+            flat.extend(arrival.probabilities);
+            flat
+        }))
+    }
+
+    /// The time that is left: mean, low, high.
+    pub fn remaining(&mut self) -> Option<Vec<f64>> {
+        self.predictor.remaining().map(|remaining| vec![remaining.mean, remaining.low, remaining.high])
+    }
+
+    /// The state now.
+    pub fn state(&mut self) -> Option<Vec<f64>> {
+        self.predictor.state().map(flat)
+    }
+
+    /// The state at the first observation.
+    pub fn initial_state(&mut self) -> Option<Vec<f64>> {
+        self.predictor.initial_state().map(flat)
+    }
+
+    /// The state at `{ time }`.
+    pub fn forecast(&mut self, numbers: &[f64], text: &str) -> Result<Option<Vec<f64>>> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let time = node.fields(&["time"])?.required("time")?.number()?;
+        Ok(self.predictor.forecast(time)?.map(flat))
+    }
+
+    /// The expected positions for `{ id, times }`.
+    pub fn path(&mut self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let fields = node.fields(&["id", "times"])?;
+        let id = fields.required("id")?.text()?;
+        let times = fields.required("times")?.vector(None)?;
+        Ok(self.predictor.path(id, &times)?)
+    }
+
+    /// Adds `{ destination }`.
+    pub fn add_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let destination = node.fields(&["destination"])?.required("destination")?.value();
+        Ok(self.predictor.add_destination(destination)?)
+    }
+
+    /// Replaces `{ id, destination }`.
+    pub fn update_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let fields = node.fields(&["id", "destination"])?;
+        let id = fields.required("id")?.text()?;
+        Ok(self.predictor.update_destination(id, fields.required("destination")?.value())?)
+    }
+
+    /// Removes `{ id }`.
+    pub fn remove_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        Ok(self.predictor.remove_destination(node.fields(&["id"])?.required("id")?.text()?)?)
+    }
+
+    /// Sets all `{ destinations }`.
+    pub fn set_destinations(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let destinations = node.fields(&["destinations"])?.required("destinations")?.value();
+        Ok(self.predictor.set_destinations(destinations)?)
+    }
+
+    /// Begins a new movement.
+    pub fn reset(&mut self) {
+        self.predictor.reset();
+    }
+}

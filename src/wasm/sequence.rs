@@ -1,0 +1,105 @@
+//! What `js/sequence.ts` stands on.
+
+use super::{Result, flat, tree};
+use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
+use crate::value::Node;
+use nalgebra::DMatrix;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// What a JavaScript `ConditionallyMarkovSequence` holds.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct SequenceEngine {
+    sequence: ConditionallyMarkovSequence,
+}
+
+#[wasm_bindgen]
+impl SequenceEngine {
+    /// A sequence induced by a Markov model.
+    #[wasm_bindgen(constructor)]
+    pub fn new(numbers: &[f64], text: &str) -> Result<SequenceEngine> {
+        Ok(Self { sequence: ConditionallyMarkovSequence::new(&tree::read(numbers, text)?)? })
+    }
+
+    /// A sequence given matrix by matrix.
+    pub fn from_parameters(numbers: &[f64], text: &str) -> Result<SequenceEngine> {
+        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&tree::read(numbers, text)?)? })
+    }
+
+    /// The number of components of one state.
+    pub fn states(&self) -> usize {
+        self.sequence.states()
+    }
+
+    /// The number of steps.
+    pub fn steps(&self) -> usize {
+        self.sequence.steps()
+    }
+
+    /// The model of `{ step }`: previous, destination and covariance row by row, and behind them the offset.
+    pub fn model(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
+        let model = self.sequence.model(step(numbers, text)?)?;
+        let mut flat = Vec::new();
+        for matrix in [&model.previous, &model.destination, &model.covariance] {
+            flat.extend(DMatrix::transpose(matrix).iter());
+        }
+        flat.extend(model.offset.iter());
+        Ok(flat)
+    }
+
+    /// Takes in `{ step, position }`.
+    pub fn measure(&mut self, numbers: &[f64], text: &str) -> Result<()> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let fields = node.fields(&["step", "position"])?;
+        let step = fields.required("step")?.whole(0, u32::MAX as usize)?;
+        Ok(self.sequence.measure(step, &fields.required("position")?.vector(None)?)?)
+    }
+
+    /// The state at `{ step }`.
+    pub fn state(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
+        Ok(flat(self.sequence.state(step(numbers, text)?)?))
+    }
+
+    /// The state at the end.
+    pub fn destination(&self) -> Vec<f64> {
+        flat(self.sequence.destination())
+    }
+
+    /// Forgets all measurements.
+    pub fn reset(&mut self) {
+        self.sequence.reset();
+    }
+
+    /// `{ seed, count }` whole sequences, one behind the other.
+    pub fn sample(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
+        let value = tree::read(numbers, text)?;
+        let node = Node::root(&value, "");
+        let fields = node.fields(&["seed", "count"])?;
+        let seed = fields.required("seed")?.whole(0, u32::MAX as usize)?;
+        let count = fields.required("count")?.whole(0, u32::MAX as usize)?;
+        Ok(self.sequence.sample(seed as u64, count)?.concat())
+    }
+
+    /// Whether it is reciprocal to `{ tolerance? }`.
+    pub fn is_reciprocal(&self, numbers: &[f64], text: &str) -> Result<bool> {
+        Ok(self.sequence.is_reciprocal(tolerance(numbers, text)?)?)
+    }
+
+    /// Whether it is Markov to `{ tolerance? }`.
+    pub fn is_markov(&self, numbers: &[f64], text: &str) -> Result<bool> {
+        Ok(self.sequence.is_markov(tolerance(numbers, text)?)?)
+    }
+}
+
+fn step(numbers: &[f64], text: &str) -> crate::Result<usize> {
+    let value = tree::read(numbers, text)?;
+    let node = Node::root(&value, "");
+    node.fields(&["step"])?.required("step")?.whole(0, u32::MAX as usize)
+}
+
+fn tolerance(numbers: &[f64], text: &str) -> crate::Result<f64> {
+    let value = tree::read(numbers, text)?;
+    let node = Node::root(&value, "");
+    node.fields(&["tolerance"])?.optional("tolerance").map_or(Ok(DEFAULT_TOLERANCE), |tolerance| tolerance.number())
+}
