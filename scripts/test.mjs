@@ -97,6 +97,13 @@ await main(import.meta.url, async () => {
   const unknown = wanted.find((name) => !(name in parts));
   if (unknown !== undefined) throw new Failure(`no part of the tests is named ${unknown}: ${Object.keys(parts).join(", ")}`);
   await setUp();
-  for (const name of wanted.length > 0 ? wanted : Object.keys(parts)) await parts[name]();
+  for (const name of wanted.length > 0 ? wanted : Object.keys(parts)) {
+    try {
+      await parts[name]();
+    } catch (error) {
+      console.error(error instanceof Failure ? error.message : error);
+      runs.push({ name: `what ${name} needs`, passed: 0, failed: 1, skipped: 0, seconds: 0 });
+    }
+  }
   if (!summary()) process.exitCode = 1;
 });

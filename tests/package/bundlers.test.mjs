@@ -1,0 +1,70 @@
+// Pages of users who know nothing of WebAssembly: each bundler as it comes, the result opened in the browser.
+import { test } from "node:test";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import * as esbuild from "esbuild";
+import { nodeResolve } from "@rollup/plugin-node-resolve";
+import { rollup } from "rollup";
+import * as vite from "vite";
+import webpack from "webpack";
+import { launch } from "../../scripts/chromium.mjs";
+import { assertPredicted, inBrowser, page, project, write } from "./support.mjs";
+
+const program = `import { init, Predictor } from "whither"; import { predict } from "./predict.js";
+window.outcome = predict({ init, Predictor });`;
+
+/** Each takes a project with `main.js` and makes `site/main.js`. */
+const bundlers = {
+  async esbuild(folder) {
+    await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], bundle: true, outdir: "site", logLevel: "warning" });
+  },
+  async "esbuild, split and minified"(folder) {
+    const options = { bundle: true, minify: true, splitting: true, format: "esm" };
+    await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...options, outdir: "site", logLevel: "warning" });
+  },
+  async Rollup(folder) {
+    const bundle = await rollup({ input: join(folder, "main.js"), plugins: [nodeResolve()] });
+    await bundle.write({ dir: join(folder, "site"), format: "es" });
+    await bundle.close();
+  },
+  async webpack(folder) {
+    const configuration = { context: folder, mode: "production", entry: "./main.js", output: { path: join(folder, "site") } };
+    const result = await promisify(webpack)(configuration);
+    if (result.hasErrors()) throw new Error(result.toString());
+  },
+  async Vite(folder) {
+    write(folder, "index.html", page('<script type="module" src="./main.js"></script>'));
+    const build = { outDir: "site", emptyOutDir: true };
+    await vite.build({ root: folder, configFile: false, logLevel: "warn", build });
+  },
+};
+
+test("bundled without configuration", async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  const { folder } = await project(t);
+  write(folder, "main.js", program);
+  for (const [name, bundle] of Object.entries(bundlers)) {
+    await t.test(`by ${name}`, async () => {
+      write(folder, "site/index.html", page('<script type="module" src="./main.js"></script>'));
+      await bundle(folder);
+      assertPredicted(await inBrowser(browser, join(folder, "site")));
+    });
+  }
+
+  await t.test("by Vite's development server", async () => {
+    const server = await vite.createServer({ root: folder, configFile: false, logLevel: "warn", server: { port: 0 } });
+    await server.listen();
+    const tab = await browser.newPage();
+    try {
+      const failures = [];
+      tab.on("pageerror", (error) => failures.push(String(error)));
+      await tab.goto(`http://localhost:${server.httpServer.address().port}/`);
+      assertPredicted(await tab.evaluate(() => window.outcome));
+      if (failures.length > 0) throw new Error(failures.join("\n"));
+    } finally {
+      await tab.close();
+      await server.close();
+    }
+  });
+});

@@ -1,0 +1,74 @@
+// What the package ships, and how much of it.
+import { test } from "node:test";
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { gunzipSync, gzipSync } from "node:zlib";
+import { capture, root } from "../../scripts/run.mjs";
+import { project } from "./support.mjs";
+
+test("the package", async (t) => {
+  const { folder, files } = await project(t);
+  const installed = join(folder, "node_modules/whither");
+  const read = (name) => readFileSync(join(installed, name));
+  const metadata = JSON.parse(read("package.json"));
+
+  await t.test("ships these files and no others", () => {
+    assert.deepEqual(files.sort(), [
+      "CHANGELOG.md",
+      "LICENSE-APACHE",
+      "LICENSE-MIT",
+      "README.md",
+      "dist/bytes.js",
+      "dist/index.js",
+      "dist/shared.js",
+      "dist/slim.js",
+      "dist/types/index.d.ts",
+      "dist/types/shared.d.ts",
+      "dist/types/slim.d.ts",
+      "dist/whither.wasm",
+      "dist/workerd.js",
+      "package.json",
+    ]);
+  });
+
+  await t.test("has no dependencies and runs nothing when it is installed", () => {
+    assert.deepEqual(Object.keys(metadata.dependencies ?? {}), []);
+    assert.deepEqual(readdirSync(join(folder, "node_modules")).filter((name) => !name.startsWith(".")), ["whither"]);
+    for (const script of ["preinstall", "install", "postinstall"]) assert.equal(metadata.scripts[script], undefined);
+  });
+
+  await t.test("has every file that its exports name", () => {
+    const named = (entry) => (typeof entry === "string" ? [entry] : Object.values(entry).flatMap(named));
+    const paths = [metadata.main, metadata.types, ...Object.values(metadata.exports).flatMap(named)];
+    for (const path of paths) assert.ok(files.includes(path.replace("./", "")), `${path} is missing`);
+  });
+
+  await t.test("has the same WebAssembly inside as beside", async () => {
+    const { base64 } = await import(join(installed, "dist/bytes.js"));
+    assert.ok(gunzipSync(Buffer.from(base64, "base64")).equals(read("dist/whither.wasm")));
+  });
+
+  await t.test("has SIMD instructions in its WebAssembly", async () => {
+    const tool = join(root, "node_modules/binaryen/bin/wasm-dis");
+    const { code, output } = await capture("node", [tool, "--all-features", join(installed, "dist/whither.wasm")]);
+    assert.equal(code, 0, output.slice(0, 1000));
+    const instructions = output.match(/\b(v128|[fi](8x16|16x8|32x4|64x2))\.\w+/g)?.length ?? 0;
+    t.diagnostic(`${instructions} SIMD instructions, ${output.match(/f64x2\.mul/g)?.length ?? 0} of them f64x2.mul`);
+    assert.ok(instructions > 0, "no SIMD instruction: was simd128 lost?");
+  });
+
+  await t.test("names no address of the WebAssembly, of which bundlers would make a second copy", () => {
+    for (const name of ["index", "shared", "slim"]) {
+      assert.doesNotMatch(read(`dist/${name}.js`).toString(), /import\.meta\.url|whither_bg\.wasm/);
+    }
+  });
+
+  await t.test("weighs at most 80 kB under gzip", () => {
+    const weigh = (names) => names.reduce((sum, name) => sum + gzipSync(read(`dist/${name}`), { level: 9 }).length, 0);
+    const full = weigh(["index.js", "shared.js", "bytes.js"]);
+    const slim = weigh(["slim.js", "shared.js", "whither.wasm"]);
+    t.diagnostic(`gzipped: whither ${full} bytes; whither/slim with whither.wasm ${slim} bytes`);
+    assert.ok(full <= 80_000, `whither is ${full} bytes under gzip`);
+  });
+});

@@ -1,0 +1,77 @@
+// The declarations for strict users, whatever else they have.
+import { test } from "node:test";
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { capture, root } from "../../scripts/run.mjs";
+import { project, write } from "./support.mjs";
+
+const program = `
+import { init, initSync, pointerScenario, Predictor, WhitherError, type Scenario } from "whither";
+import { init as initSlim } from "whither/slim";
+
+const scenario: Scenario = {
+  motion: { type: "constantVelocity", dimensions: 2, noise: 3000 },
+  observation: { noise: 1.5 },
+  arrival: { type: "horizon", from: 0.05, to: 0.5 },
+  destinations: [{ id: "radio", center: [100, 80], size: [90, 90] }, { id: "map", mean: [600, 300], covariance: [[9, 0], [0, 9]] }],
+};
+
+export async function use(bytes: ArrayBuffer): Promise<string> {
+  await init();
+  await initSlim({ wasm: bytes });
+  initSync({ module: bytes });
+  const predictor = new Predictor(scenario);
+  try {
+    predictor.observe(0, [300, 500]);
+    predictor.observe(0.016, new Float64Array([306, 496]));
+    const probabilities: Float64Array = predictor.probabilities(new Float64Array(2));
+    const none: number = predictor.none;
+    const best: { id: string; index: number; probability: number } | null = predictor.best;
+    predictor.setDestinations(scenario.destinations);
+    predictor.reset();
+    return \`\${best?.id} \${probabilities[0]} \${none}\`;
+  } catch (error) {
+    if (error instanceof WhitherError) return \`\${error.code} \${error.path}\`;
+    throw error;
+  } finally {
+    predictor.free();
+  }
+}
+
+new Predictor(pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }]));
+
+// @ts-expect-error: there is no such type of motion
+new Predictor({ ...scenario, motion: { type: "constantSpeed", dimensions: 2, noise: 1 } });
+// @ts-expect-error: a time is a number
+new Predictor(scenario).observe("0", [1, 2]);
+`;
+
+const strict = { strict: true, skipLibCheck: false, noEmit: true, exactOptionalPropertyTypes: true, types: [] };
+const users = {
+  "ES2020 and nothing else": { target: "ES2020", lib: ["ES2020"], module: "nodenext", moduleResolution: "nodenext" },
+  "a bundler and the DOM": { target: "ES2022", lib: ["ES2022", "DOM"], module: "esnext", moduleResolution: "bundler" },
+  "the newest libraries": { target: "ESNext", lib: ["ESNext", "DOM"], module: "preserve" },
+};
+
+test("the declarations compile", async (t) => {
+  const { folder } = await project(t);
+  write(folder, "use.ts", program);
+  for (const [name, options] of Object.entries(users)) {
+    await t.test(`for ${name}`, async () => {
+      write(folder, "tsconfig.json", JSON.stringify({ compilerOptions: { ...strict, ...options }, files: ["use.ts"] }));
+      const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
+      assert.equal(code, 0, output);
+    });
+  }
+
+  await t.test("and take what a browser has as the WebAssembly", async () => {
+    const text = `import { init } from "whither/slim";
+      export const all = (module: WebAssembly.Module, view: Uint8Array) =>
+        [new URL("https://example.org/"), fetch("/whither.wasm"), new Response(), "/whither.wasm", view, view.buffer, module].map((wasm) => init({ wasm }));`;
+    write(folder, "browser.ts", text);
+    const compilerOptions = { ...strict, ...users["a bundler and the DOM"] };
+    write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["browser.ts"] }));
+    const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
+    assert.equal(code, 0, output);
+  });
+});
