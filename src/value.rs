@@ -5,9 +5,13 @@
 //! WebAssembly several times as large and its errors poorer.
 
 use crate::error::{Code, Error, Result};
-use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
-use std::fmt::{self, Write};
+use std::fmt::Write;
+
+mod serial;
+
+/// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
+/// the smallest deviation: what is computed from such numbers stays finite.
+pub const LARGEST: f64 = 1e50;
 
 /// What JSON can say, with NaN and infinities left in, so that they can be refused by name.
 #[derive(Clone, Debug, PartialEq)]
@@ -187,20 +191,20 @@ impl<'a> Node<'a> {
     /// This value as an object that may have the `legal` keys only.
     ///
     /// # Errors
-    /// `wrong-type` if it is none, `unknown-key` for any other key.
+    /// `wrong-type` if it is none, `unknown-key` for any other key and for one that is there twice.
     pub fn fields(&self, legal: &[&str]) -> Result<Fields<'_>> {
         let Value::Map(entries) = self.value else {
             return Err(self.error(Code::WrongType, "must be an object"));
         };
-        for (key, _) in entries {
+        for (i, (key, _)) in entries.iter().enumerate() {
+            let path = || Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
             if !legal.contains(&key.as_str()) {
-                let path = Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
-                return Err(Error::new(
-                    Code::UnknownKey,
-                    path,
-                    format!("unknown key {}, expected one of {}", quote(key), legal.join(", ")),
-                ));
+                let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
+                return Err(Error::new(Code::UnknownKey, path(), message));
+            }
+            if entries[..i].iter().any(|(before, _)| before == key) {
+                return Err(Error::new(Code::UnknownKey, path(), format!("the key {} is there twice", quote(key))));
             }
         }
         Ok(Fields { entries, node: self })
@@ -225,25 +229,29 @@ impl<'a> Node<'a> {
         Fields { entries, node: self }.required(key)?.word(words)
     }
 
-    /// A finite number.
+    /// A finite number, at most [`LARGEST`] in absolute value.
     ///
     /// # Errors
-    /// `wrong-type`, `not-finite`.
+    /// `wrong-type`, `not-finite`, `out-of-range`.
     pub fn number(&self) -> Result<f64> {
         match self.value {
-            Value::Number(x) if x.is_finite() => Ok(*x),
+            Value::Number(x) if x.abs() <= LARGEST => Ok(*x),
+            Value::Number(x) if x.is_finite() => Err(self.error(Code::OutOfRange, "must be from -1e50 to 1e50")),
             Value::Number(_) => Err(self.error(Code::NotFinite, "must be a finite number")),
             _ => Err(self.error(Code::WrongType, "must be a number")),
         }
     }
 
-    /// A number above zero.
+    /// A number above zero whose square and whose inverse are within reach: from 1e-50 to 1e50.
     ///
     /// # Errors
-    /// As [`Node::number`], and `out-of-range`.
+    /// As [`Node::number`].
     pub fn positive(&self) -> Result<f64> {
-        let x = self.number()?;
-        if x > 0.0 { Ok(x) } else { Err(self.error(Code::OutOfRange, "must be greater than 0")) }
+        match self.number()? {
+            x if x <= 0.0 => Err(self.error(Code::OutOfRange, "must be greater than 0")),
+            x if x < 1.0 / LARGEST => Err(self.error(Code::OutOfRange, "must be at least 1e-50")),
+            x => Ok(x),
+        }
     }
 
     /// A number that is zero or above.
@@ -420,87 +428,5 @@ impl<'a> Fields<'a> {
     #[must_use]
     pub const fn node(&self) -> &'a Node<'a> {
         self.node
-    }
-}
-
-impl Serialize for Value {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match self {
-            Self::Null => serializer.serialize_unit(),
-            Self::Bool(b) => serializer.serialize_bool(*b),
-            Self::Number(x) => serializer.serialize_f64(*x),
-            Self::Text(s) => serializer.serialize_str(s),
-            Self::List(v) => {
-                let mut list = serializer.serialize_seq(Some(v.len()))?;
-                for item in v {
-                    list.serialize_element(item)?;
-                }
-                list.end()
-            }
-            Self::Map(v) => {
-                let mut map = serializer.serialize_map(Some(v.len()))?;
-                for (key, value) in v {
-                    map.serialize_entry(key, value)?;
-                }
-                map.end()
-            }
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Value {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        deserializer.deserialize_any(ValueVisitor)
-    }
-}
-
-struct ValueVisitor;
-
-impl<'de> Visitor<'de> for ValueVisitor {
-    type Value = Value;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("plain data: numbers, strings, lists and objects")
-    }
-    fn visit_unit<E>(self) -> std::result::Result<Value, E> {
-        Ok(Value::Null)
-    }
-    fn visit_none<E>(self) -> std::result::Result<Value, E> {
-        Ok(Value::Null)
-    }
-    fn visit_some<D: Deserializer<'de>>(self, deserializer: D) -> std::result::Result<Value, D::Error> {
-        Value::deserialize(deserializer)
-    }
-    fn visit_bool<E>(self, b: bool) -> std::result::Result<Value, E> {
-        Ok(Value::Bool(b))
-    }
-    fn visit_i64<E>(self, x: i64) -> std::result::Result<Value, E> {
-        Ok(Value::Number(x as f64))
-    }
-    fn visit_u64<E>(self, x: u64) -> std::result::Result<Value, E> {
-        Ok(Value::Number(x as f64))
-    }
-    fn visit_f64<E>(self, x: f64) -> std::result::Result<Value, E> {
-        Ok(Value::Number(x))
-    }
-    fn visit_str<E>(self, s: &str) -> std::result::Result<Value, E> {
-        Ok(Value::Text(s.to_owned()))
-    }
-    fn visit_string<E>(self, s: String) -> std::result::Result<Value, E> {
-        Ok(Value::Text(s))
-    }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> std::result::Result<Value, A::Error> {
-        let mut items = Vec::with_capacity(seq.size_hint().unwrap_or(0).min(1024));
-        while let Some(item) = seq.next_element()? {
-            items.push(item);
-        }
-        Ok(Value::List(items))
-    }
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Value, A::Error> {
-        let mut entries = Vec::new();
-        while let Some(entry) = map.next_entry()? {
-            entries.push(entry);
-        }
-        Ok(Value::Map(entries))
     }
 }

@@ -3,7 +3,6 @@
 use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
-use crate::math::gaussian::Factor;
 use crate::value::{Node, Value, quote};
 use nalgebra::{DMatrix, DVector};
 
@@ -84,9 +83,6 @@ impl Destination {
         }
         let end_velocity = end_velocity.map(|field| field.number()).transpose()?;
         let covariance = DMatrix::from_diagonal(&DVector::from_vec(variances));
-        if Factor::new(covariance.clone()).is_none() {
-            return Err(node.error(Code::OutOfRange, "size and endVelocity must have finite squares above 0"));
-        }
         Ok(Self { id, mean, prior, kind: Kind { covariance, size: Some(size), end_velocity, arrival } })
     }
 

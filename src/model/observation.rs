@@ -3,7 +3,7 @@
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, is_symmetric};
 use crate::math::kalman::Measurement;
-use crate::value::{Node, Value};
+use crate::value::{LARGEST, Node, Value};
 use nalgebra::{DMatrix, DVector};
 
 /// How the state is observed: the matrix `G` (positions by default) and the covariance `V`.
@@ -65,7 +65,7 @@ impl ObservationModel {
     /// An observation as a measurement: none marks a missing axis, `noise` replaces `V` for this one.
     ///
     /// # Errors
-    /// `wrong-length`, `not-finite`.
+    /// `wrong-length`, `not-finite`, `out-of-range`.
     pub fn measurement(&self, position: &[Option<f64>], noise: Option<&DMatrix<f64>>) -> Result<Measurement> {
         let axes = self.axes();
         if position.len() != axes {
@@ -74,11 +74,9 @@ impl ObservationModel {
         }
         for (i, y) in position.iter().enumerate() {
             if let Some(y) = y
-                && !y.is_finite()
+                && !(y.abs() <= LARGEST)
             {
-                let value = Value::Number(*y);
-                let message = format!("must be a finite number, got {}", value.quoted());
-                return Err(Error::new(Code::NotFinite, format!("position[{i}]"), message));
+                Node::root(&Value::Number(*y), &format!("position[{i}]")).number()?;
             }
         }
         let (rows, values): (Vec<usize>, Vec<f64>) =
@@ -103,6 +101,9 @@ impl ObservationModel {
     }
 }
 
+/// The square of the smallest deviation that [`Node::positive`] takes.
+const SMALLEST_VARIANCE: f64 = 1.0 / (LARGEST * LARGEST);
+
 fn read_noise(node: &Node<'_>, axes: usize) -> Result<DMatrix<f64>> {
     if let Value::List(items) = node.value()
         && items.iter().any(|item| matches!(item, Value::List(_)))
@@ -116,9 +117,12 @@ fn read_noise(node: &Node<'_>, axes: usize) -> Result<DMatrix<f64>> {
 /// Reads a covariance matrix, `n` by `n`, symmetric and positive definite.
 ///
 /// # Errors
-/// `wrong-type`, `wrong-length`, `not-finite`, `not-positive-definite`.
+/// `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
 pub fn read_covariance(node: &Node<'_>, n: usize) -> Result<DMatrix<f64>> {
     let matrix = DMatrix::from_row_slice(n, n, &node.matrix(n, n)?);
+    if (0..n).any(|i| matrix[(i, i)] > 0.0 && matrix[(i, i)] < SMALLEST_VARIANCE) {
+        return Err(node.error(Code::OutOfRange, "must have variances of at least 1e-100"));
+    }
     if !is_symmetric(&matrix) || Factor::new(matrix.clone()).is_none() {
         return Err(node.error(Code::NotPositiveDefinite, "must be symmetric and positive definite"));
     }
