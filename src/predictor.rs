@@ -1,10 +1,12 @@
 //! The predictor: observations in, beliefs out.
 
+mod edit;
 mod track;
 
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
-use crate::model::destination::{Destination, Destinations};
+use crate::model::arrival::MAX_TIME;
+use crate::model::destination::Destinations;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
@@ -85,7 +87,8 @@ impl Predictor {
     /// begins the movement. An equal time is legal.
     ///
     /// # Errors
-    /// `time-not-increasing`, `wrong-length`, `not-finite`, `out-of-range`; nothing has changed then.
+    /// `time-not-increasing`, `wrong-length`, `not-finite`; `out-of-range` for a position beyond 1e50 or a time more than
+    /// 1e12 s after the first; nothing has changed then.
     pub fn observe(&mut self, time: f64, position: &[f64]) -> Result<()> {
         let position: Vec<Option<f64>> = position.iter().map(|&x| Some(x)).collect();
         self.observe_with(time, &position, None)
@@ -113,9 +116,13 @@ impl Predictor {
                 format!("must be at least the last observation's, {}, got {}", number(track.time), number(time));
             return Err(Error::new(Code::TimeNotIncreasing, "time", message));
         }
-        if self.stale && track.expires_by(time) {
-            track.update(&mut self.posterior, &self.destinations, self.scenario.none);
-            self.stale = false;
+        if time - track.first_time > MAX_TIME {
+            let message = format!(
+                "must be at most 1e12 seconds after the first observation's, {}, got {}",
+                number(track.first_time),
+                number(time)
+            );
+            return Err(Error::new(Code::OutOfRange, "time", message));
         }
         track.advance(&self.destinations, &observed)?;
         self.stale |= !track.expired();
@@ -216,7 +223,7 @@ impl Predictor {
     }
 
     /// The posterior of the arrival time on the caller's clock, for one destination or mixed over all of them; none before
-    /// the first observation.
+    /// the first observation, and where every node of it has passed while others have not.
     ///
     /// # Errors
     /// `unknown-id`.
@@ -224,7 +231,8 @@ impl Predictor {
         let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
         self.refresh();
         let Some(track) = &self.track else { return Ok(None) };
-        let mut arrival = track.arrival(&self.posterior, &self.destinations, only);
+        let arrival = track.arrival(&self.posterior, &self.destinations, only);
+        let Some(mut arrival) = arrival else { return Ok(None) };
         arrival.times.iter_mut().for_each(|t| *t += track.first_time);
         arrival.mean += track.first_time;
         Ok(Some(arrival))
@@ -284,106 +292,16 @@ impl Predictor {
             let message = format!("must be at least the last observation's time, {last}, got {}", number(time));
             return Err(Error::new(Code::OutOfRange, path, message));
         }
+        if time - track.time > MAX_TIME {
+            let message = format!("must be at most 1e12 seconds after the last observation, got {}", number(time));
+            return Err(Error::new(Code::OutOfRange, path, message));
+        }
         Ok(Some(time - track.time))
     }
 
     fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
         self.refresh();
         self.track.as_ref()?.state(&self.posterior, &self.destinations, later, only)
-    }
-
-    fn read_destination(&self, value: &Value) -> Result<Destination> {
-        Destination::read(&Node::root(value, "destination"), self.dimensions(), self.states())
-    }
-
-    /// Adds a destination at the end, in mid-movement too.
-    ///
-    /// # Errors
-    /// Those of a scenario's destination; `duplicate-id`; `method-accumulates` in mid-movement where the method, or a motion
-    /// model that knows the destination, accumulates for each of them. Nothing has changed then.
-    pub fn add_destination(&mut self, destination: &Value) -> Result<()> {
-        let destination = self.read_destination(destination)?;
-        let mut changed = (*self.destinations).clone();
-        changed.add(&destination)?;
-        self.replace(changed)
-    }
-
-    /// Puts another destination in the place of `id`; it keeps the id, and `destination` may leave it out.
-    ///
-    /// # Errors
-    /// `unknown-id`, and as [`Predictor::add_destination`].
-    pub fn update_destination(&mut self, id: &str, destination: &Value) -> Result<()> {
-        let i = self.destinations.index_of(id)?;
-        let mut named = destination.clone();
-        if let Value::Map(entries) = &mut named {
-            match entries.iter().find(|(key, value)| key == "id" && *value != Value::Null) {
-                Some((_, given)) if *given != Value::text(id) => {
-                    let message = format!("must stay {}, got {}", Value::text(id).quoted(), given.quoted());
-                    return Err(Error::new(Code::OutOfRange, "destination.id", message));
-                }
-                Some(_) => {}
-                None => {
-                    entries.retain(|(key, _)| key != "id");
-                    entries.push(("id".to_owned(), Value::text(id)));
-                }
-            }
-        }
-        let destination = self.read_destination(&named)?;
-        let mut changed = (*self.destinations).clone();
-        changed.update(i, &destination)?;
-        self.replace(changed)
-    }
-
-    /// Takes a destination out.
-    ///
-    /// # Errors
-    /// `unknown-id`, `no-destinations` for the last one, and as [`Predictor::add_destination`].
-    pub fn remove_destination(&mut self, id: &str) -> Result<()> {
-        let i = self.destinations.index_of(id)?;
-        let mut changed = (*self.destinations).clone();
-        changed.remove(i)?;
-        self.replace(changed)
-    }
-
-    /// Sets all destinations at once, a scenario's list of them; ids that stay keep their state.
-    ///
-    /// # Errors
-    /// Those of a scenario's destinations, and as [`Predictor::add_destination`].
-    pub fn set_destinations(&mut self, destinations: &Value) -> Result<()> {
-        let node = Node::root(destinations, "destinations");
-        let changed = Destinations::read(&node, self.dimensions(), self.states())?;
-        self.replace(changed)
-    }
-
-    fn replace(&mut self, changed: Destinations) -> Result<()> {
-        self.scenario.check_arrivals(&changed)?;
-        if self.track.is_none() {
-            self.destinations = Arc::new(changed);
-            self.stale = true;
-            return Ok(());
-        }
-        self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
-        let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
-        self.destinations = Arc::new(changed);
-        if let Some(track) = &mut self.track {
-            track.replan(&self.scenario, &self.destinations, origin.as_deref());
-        }
-        self.stale = true;
-        Ok(())
-    }
-
-    /// Which of the present destinations each of `changed` is: their motion, and so their evidence, must stay.
-    fn origins(&self, changed: &Destinations) -> Result<Vec<usize>> {
-        let find = |j: usize| {
-            let found =
-                self.destinations.find(changed.id(j)).filter(|&i| self.destinations.center(i) == changed.center(j));
-            found.ok_or_else(|| {
-                let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
-                               evidence accumulates for each of them";
-                Error::new(Code::MethodAccumulates, format!("destinations[{j}]"), message)
-            })
-        };
-        (0..changed.len()).map(find).collect()
     }
 
     /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.

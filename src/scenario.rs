@@ -31,6 +31,9 @@ use std::sync::Arc;
 const KEYS: [&str; 9] =
     ["motion", "observation", "initial", "arrival", "quadrature", "method", "pointing", "none", "destinations"];
 
+/// The most numbers that are kept for the pairs of destination and arrival time, a gigabyte of them.
+const MOST_NUMBERS: u64 = 1 << 27;
+
 /// Everything that a predictor is made from.
 #[derive(Clone, Debug)]
 pub struct Scenario {
@@ -81,7 +84,7 @@ impl Scenario {
         let destinations = Destinations::read(&fields.required("destinations")?, d, s)?;
         let scenario = Self { motion, observation, initial, engine, none, destinations };
         scenario.check()?;
-        scenario.check_arrivals(&scenario.destinations)?;
+        scenario.check_destinations(&scenario.destinations)?;
         Ok(scenario)
     }
 
@@ -107,20 +110,49 @@ impl Scenario {
         Ok(())
     }
 
-    /// Whether the arrival priors of these destinations go with the method.
+    /// Whether these destinations go with the method, and fit into memory.
     ///
     /// # Errors
-    /// `method-accumulates`; `unknown-key` with the pointing model, which has nodes of its own.
-    pub(crate) fn check_arrivals(&self, destinations: &Destinations) -> Result<()> {
-        if matches!(self.engine, Engine::Pointing(_)) {
+    /// `method-accumulates`, `too-large`; `unknown-key` with the pointing model, which has nodes of its own.
+    pub(crate) fn check_destinations(&self, destinations: &Destinations) -> Result<()> {
+        let Engine::Papers { method, arrival, quadrature } = &self.engine else {
             return check_for_pointing(destinations);
-        }
+        };
+        self.check_size(destinations, *method, arrival, quadrature)?;
         let own = |i: &usize| destinations.kind(*i).arrival.as_ref().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
                 .refuse_accumulating(&format!("destinations[{i}].arrival"), "a horizon moves with every observation"),
             None => Ok(()),
         }
+    }
+
+    /// What grows with the product of destinations, arrival times and noise candidates must fit into the memory of a wasm
+    /// module.
+    fn check_size(
+        &self,
+        destinations: &Destinations,
+        method: Method,
+        arrival: &Arrival,
+        quadrature: &Quadrature,
+    ) -> Result<()> {
+        let count = destinations.len();
+        let points = |i: usize| destinations.kind(i).arrival.as_ref().unwrap_or(arrival).points(quadrature);
+        let nodes: u64 = (0..count).map(|i| points(i) as u64).sum();
+        let states = self.motion.states() as u64;
+        let each = nodes * if method == Method::Bridging { 2 * states + 1 } else { 1 };
+        let columns = if self.motion.depends_on_destination() { 2 * states * count as u64 } else { 0 };
+        let needed = self.motion.candidates.len() as u64 * (each + columns);
+        if needed <= MOST_NUMBERS {
+            return Ok(());
+        }
+        let message = format!(
+            "{count} destinations with {nodes} arrival times together, under {} noise candidates, need {needed} numbers \
+             with \"{}\", the most is {MOST_NUMBERS}",
+            self.motion.candidates.len(),
+            method.name()
+        );
+        Err(Error::new(Code::TooLarge, "destinations", message))
     }
 
     /// An error where the method accumulates evidence for each destination and node.

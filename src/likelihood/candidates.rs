@@ -5,7 +5,7 @@
 
 use super::plan::Plan;
 use super::{Likelihood, Method, Scene, Step};
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement, TimeUpdate};
 use crate::math::log_sum_exp::log_sum_exp;
@@ -93,34 +93,42 @@ impl Movement {
         Ok(())
     }
 
-    /// Takes an observation in, `step` seconds after the last one.
-    pub fn advance(&mut self, destinations: &Destinations, step: f64, measurement: &Measurement) {
-        let elapsed_before = self.elapsed;
-        self.elapsed += step;
-        self.observations += 1;
-        for World { model, filter, engine, .. } in &mut self.worlds {
-            let transition = model.transition(step);
-            let before = filter.clone();
-            let offsets = offsets(&transition, destinations, filter.means.ncols());
-            filter.predict(&TimeUpdate {
+    /// Takes an observation in, `elapsed` seconds after the first one.
+    ///
+    /// # Errors
+    /// `out-of-range` where the numbers grow beyond what can be computed with (a drift that explodes); nothing has changed
+    /// then.
+    pub fn advance(&mut self, destinations: &Destinations, elapsed: f64, measurement: &Measurement) -> Result<()> {
+        let steps = self.worlds.iter().map(|world| {
+            let transition = world.model.transition(elapsed - self.elapsed);
+            let mut predicted = world.filter.clone();
+            predicted.predict(&TimeUpdate {
                 transition: &transition.transition,
-                offsets: &offsets,
+                offsets: &offsets(&transition, destinations, predicted.means.ncols()),
                 noise: &transition.noise,
             });
-            let predicted = filter.clone();
-            filter.correct(measurement);
-            let scene = Scene {
-                motion: model.as_ref(),
-                destinations,
-                plan: &self.plan,
-                first: &self.first,
-                filter,
-                elapsed: self.elapsed,
-            };
+            let mut corrected = predicted.clone();
+            if corrected.correct(measurement) && corrected.is_finite() {
+                Ok((transition, predicted, corrected))
+            } else {
+                let message = "leads to a state that is not finite: the motion model explodes over this time";
+                Err(Error::new(Code::OutOfRange, "time", message))
+            }
+        });
+        let steps = steps.collect::<Result<Vec<_>>>()?;
+        let elapsed_before = std::mem::replace(&mut self.elapsed, elapsed);
+        self.observations += 1;
+        for (World { model, filter, engine, .. }, (transition, predicted, corrected)) in
+            self.worlds.iter_mut().zip(steps)
+        {
+            let before = std::mem::replace(filter, corrected);
+            let scene =
+                Scene { motion: model.as_ref(), destinations, plan: &self.plan, first: &self.first, filter, elapsed };
             let step =
                 Step { before: &before, predicted: &predicted, transition: &transition, measurement, elapsed_before };
             engine.advance(&scene, &step);
         }
+        Ok(())
     }
 
     /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as [`Plan::rows`] says.

@@ -1,6 +1,5 @@
 //! Which arrival times are tried for which destination: the nodes of (6), and the destinations that share them.
 
-use crate::math::log_sum_exp::log_sum_exp;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
@@ -29,6 +28,8 @@ pub struct Plan {
     pub rows: Vec<usize>,
     /// Whether a grid counts from now, not from the first observation.
     horizons: Vec<bool>,
+    /// Whether a grid has a destination whose prior is above zero.
+    possible: Vec<bool>,
 }
 
 impl Plan {
@@ -41,6 +42,7 @@ impl Plan {
             grid_of: Vec::with_capacity(destinations.len()),
             rows: vec![0],
             horizons: Vec::new(),
+            possible: Vec::new(),
         };
         let kinds = destinations.kinds();
         // a grid for each kind's own prior, one for all that have none; a grid for each destination under Fitts's law
@@ -58,11 +60,13 @@ impl Plan {
                     let offsets = destinations.center(i).iter().zip(start).map(|(a, y)| (a - y) * (a - y));
                     let distance = offsets.sum::<f64>().sqrt();
                     plan.horizons.push(prior.is_horizon());
+                    plan.possible.push(false);
                     plan.grids.push(prior.grid(quadrature, distance, kind.extent(destinations.dimensions())));
                     plan.grids.len() as u32 - 1
                 }
             };
             *known = Some(grid);
+            plan.possible[grid as usize] |= destinations.priors()[i] > 0.0;
             let group = *group_of.entry((grid, kind_number)).or_insert_with(|| {
                 plan.groups.push(Group { grid: grid as usize, kind: kind_number, members: Vec::new() });
                 plan.groups.len() - 1
@@ -92,24 +96,13 @@ impl Plan {
         if self.horizons[grid] { time + elapsed } else { time }
     }
 
-    /// Whether some node with weight still lies after `elapsed`.
+    /// Whether some node that has weight, of a destination that has, still lies after `elapsed`.
     #[must_use]
     pub fn is_alive(&self, elapsed: f64) -> bool {
         self.grids.iter().enumerate().any(|(g, grid)| {
             let mut nodes = grid.times.iter().zip(&grid.log_weights);
-            nodes.any(|(&time, &weight)| weight > f64::NEG_INFINITY && self.remaining(g, time, elapsed) > 0.0)
+            self.possible[g]
+                && nodes.any(|(&time, &weight)| weight > f64::NEG_INFINITY && self.remaining(g, time, elapsed) > 0.0)
         })
-    }
-
-    /// (6): `log p(y_2:k | y_1, D_i)` for every destination, from the table over its nodes.
-    pub fn marginalise(&self, table: &[f64], out: &mut Vec<f64>) {
-        out.clear();
-        let mut joint = Vec::new();
-        for i in 0..self.grid_of.len() {
-            joint.clear();
-            let weights = &self.grid(i).log_weights;
-            joint.extend(table[self.rows[i]..self.rows[i + 1]].iter().zip(weights).map(|(l, w)| l + w));
-            out.push(log_sum_exp(&joint));
-        }
     }
 }

@@ -90,6 +90,12 @@ impl Filter {
         self.log_evidence[self.column(i)]
     }
 
+    /// Whether every number is finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.means.iter().chain(self.covariance.iter()).chain(&self.log_evidence).all(|x| x.is_finite())
+    }
+
     /// Liang (8): the prediction of the next state.
     pub fn predict(&mut self, step: &TimeUpdate<'_>) {
         let s = self.states;

@@ -117,17 +117,28 @@ impl Quadrature {
         })
     }
 
+    /// How many nodes.
+    #[must_use]
+    pub const fn points(&self) -> usize {
+        match *self {
+            Self::Simpson { points }
+            | Self::Trapezoid { points }
+            | Self::GaussLegendre { points }
+            | Self::MonteCarlo { points, .. } => points,
+        }
+    }
+
     /// The rule as a scenario writes it.
     #[must_use]
     pub fn to_value(&self) -> Value {
-        let (rule, points) = match self {
-            Self::Simpson { points } => ("simpson", points),
-            Self::Trapezoid { points } => ("trapezoid", points),
-            Self::GaussLegendre { points } => ("gaussLegendre", points),
-            Self::MonteCarlo { points, .. } => ("monteCarlo", points),
+        let rule = match self {
+            Self::Simpson { .. } => "simpson",
+            Self::Trapezoid { .. } => "trapezoid",
+            Self::GaussLegendre { .. } => "gaussLegendre",
+            Self::MonteCarlo { .. } => "monteCarlo",
         };
         let mut entries =
-            vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(*points as f64))];
+            vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(self.points() as f64))];
         if let Self::MonteCarlo { seed, .. } = self {
             entries.push(("seed".to_owned(), Value::Number(f64::from(*seed))));
         }

@@ -149,6 +149,15 @@ impl Arrival {
         }
     }
 
+    /// How many nodes it has.
+    #[must_use]
+    pub fn points(&self, quadrature: &Quadrature) -> usize {
+        match self {
+            Self::Discrete { times, .. } => times.len(),
+            _ => quadrature.points(),
+        }
+    }
+
     /// Whether it is a prior on the time to go at every step.
     #[must_use]
     pub const fn is_horizon(&self) -> bool {

@@ -1,6 +1,6 @@
 //! The posterior of the arrival time, `p(T_n | y_1:k)`, mixed over the destinations or for one of them.
 
-use super::Posterior;
+use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
 
 /// Arrival times and their probabilities.
@@ -58,15 +58,12 @@ impl Arrival {
 }
 
 impl Posterior {
-    /// `p(T_n | y_1:k)` for the destinations `which`, each by its share, in seconds since the first observation.
+    /// `p(T_n | y_1:k)` in seconds since the first observation, mixed over destinations by their shares; none where they
+    /// cannot be reached any more.
     #[must_use]
-    pub fn arrival(&self, movement: &Movement, which: impl Iterator<Item = usize>, alone: bool) -> Arrival {
+    pub fn arrival(&self, movement: &Movement, shares: Shares<'_>) -> Option<Arrival> {
         let mut nodes = Vec::new();
-        for i in which {
-            let share = if alone { 1.0 } else { self.share(i) };
-            if share == 0.0 {
-                continue;
-            }
+        for &(i, share) in shares {
             let grid = movement.plan.grid_of[i] as usize;
             let times = &movement.plan.grids[grid].times;
             for (n, weight) in self.nodes_of(movement, i).into_iter().enumerate() {
@@ -74,7 +71,7 @@ impl Posterior {
                 nodes.push((time, share * weight));
             }
         }
-        Arrival::from_nodes(nodes)
+        nodes.iter().any(|(_, weight)| *weight > 0.0).then(|| Arrival::from_nodes(nodes))
     }
 }
 

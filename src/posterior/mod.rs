@@ -8,6 +8,12 @@ use crate::likelihood::candidates::Movement;
 use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
 
+/// Destinations that are asked about, each with its share; the shares need not sum to one.
+pub type Shares<'a> = &'a [(usize, f64)];
+
+/// Below this, probabilities beside that of none have lost digits: what they are among each other is taken from the logs.
+const SMALLEST_SUM: f64 = 1e-280;
+
 /// What is believed after an observation.
 #[derive(Clone, Debug, Default)]
 pub struct Posterior {
@@ -27,14 +33,18 @@ impl Posterior {
         self.joint.clear();
         self.log_likelihoods.clear();
         self.log_likelihoods.resize(destinations.len(), 0.0);
+        self.believe_prior(destinations, none);
+    }
+
+    fn believe_prior(&mut self, destinations: &Destinations, none: f64) {
         let total: f64 = destinations.priors().iter().sum();
         self.probabilities.clear();
         self.probabilities.extend(destinations.priors().iter().map(|prior| (1.0 - none) * prior / total));
         self.none = none;
     }
 
-    /// Liang (3) and (6) for a movement so far. Where every likelihood is zero to the last bit of its logarithm, the
-    /// probabilities stay as they were.
+    /// Liang (3) and (6) for a movement so far. Where no destination can be reached, so that every likelihood is zero, the
+    /// probabilities are the priors.
     pub fn update(&mut self, movement: &Movement, destinations: &Destinations, none: f64) {
         movement.joint(destinations, &mut self.joint);
         let plan = &movement.plan;
@@ -54,11 +64,7 @@ impl Posterior {
         let log_none = if none > 0.0 { movement.log_evidence_of_none(priors) + none.ln() } else { f64::NEG_INFINITY };
         let top = weighed.iter().copied().fold(log_none, f64::max);
         if !top.is_finite() {
-            if self.probabilities.len() != destinations.len() {
-                let joint = std::mem::take(&mut self.joint);
-                self.set_to_prior(destinations, none);
-                self.joint = joint;
-            }
+            self.believe_prior(destinations, none);
             return;
         }
         self.probabilities.clear();
@@ -94,10 +100,21 @@ impl Posterior {
         terms.iter().map(|term| (term - total).exp()).collect()
     }
 
-    /// The probability of destination `i` given that it is one of them.
+    /// The destinations with their shares of what is not none, or one of them alone.
     #[must_use]
-    pub fn share(&self, i: usize) -> f64 {
-        let sum: f64 = self.probabilities.iter().sum();
-        if sum > 0.0 { self.probabilities[i] / sum } else { 0.0 }
+    pub fn shares(&self, destinations: &Destinations, only: Option<usize>) -> Vec<(usize, f64)> {
+        if let Some(one) = only {
+            return vec![(one, 1.0)];
+        }
+        let whole = self.probabilities.iter().sum::<f64>() > SMALLEST_SUM;
+        let beside_none: Vec<f64> = if whole {
+            self.probabilities.clone()
+        } else {
+            let weighed = self.log_likelihoods.iter().zip(destinations.priors()).map(|(l, prior)| l + prior.ln());
+            let weighed: Vec<f64> = weighed.collect();
+            let total = log_sum_exp(&weighed);
+            weighed.iter().map(|l| if total.is_finite() { (l - total).exp() } else { 0.0 }).collect()
+        };
+        beside_none.into_iter().enumerate().filter(|(_, share)| *share > 0.0).collect()
     }
 }

@@ -74,16 +74,6 @@ impl Track {
         }
     }
 
-    /// Whether every arrival node passes by `time`, so that this is the last moment for a belief.
-    pub(super) fn expires_by(&self, time: f64) -> bool {
-        match &self.followed {
-            Followed::Papers { movement, frozen } => {
-                frozen.is_none() && !movement.plan.is_alive(time - self.first_time)
-            }
-            Followed::Pointing(_) => false,
-        }
-    }
-
     /// Whether every arrival node has passed.
     pub(super) const fn expired(&self) -> bool {
         matches!(self.followed, Followed::Papers { frozen: Some(_), .. })
@@ -91,17 +81,18 @@ impl Track {
 
     /// Takes in one more observation.
     pub(super) fn advance(&mut self, destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
-        let expires = self.expires_by(observed.time);
-        let step = (observed.time - self.first_time) - self.elapsed();
+        let elapsed = observed.time - self.first_time;
         match &mut self.followed {
             Followed::Papers { movement, frozen } => {
+                let expires = frozen.is_none() && !movement.plan.is_alive(elapsed);
+                let before = expires.then(|| Box::new(movement.clone()));
+                movement.advance(destinations, elapsed, observed.measurement)?;
                 if expires {
-                    *frozen = Some(Box::new(movement.clone()));
+                    *frozen = before;
                 }
-                movement.advance(destinations, step, observed.measurement);
             }
             Followed::Pointing(pointing) => {
-                pointing.advance(step, observed.position, &axis_variances(observed.noise, "noise")?);
+                pointing.advance(elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
             }
         }
         self.time = observed.time;
@@ -118,17 +109,17 @@ impl Track {
         }
     }
 
-    /// The posterior of the arrival time, in seconds since the first observation.
-    pub(super) fn arrival(&self, posterior: &Posterior, destinations: &Destinations, only: Option<usize>) -> Arrival {
+    /// The posterior of the arrival time, in seconds since the first observation; none where nothing can be reached.
+    pub(super) fn arrival(
+        &self,
+        posterior: &Posterior,
+        destinations: &Destinations,
+        only: Option<usize>,
+    ) -> Option<Arrival> {
+        let shares = posterior.shares(destinations, only);
         match &self.followed {
-            Followed::Papers { movement, frozen } => {
-                let believed = frozen.as_deref().unwrap_or(movement);
-                match only {
-                    Some(i) => posterior.arrival(believed, i..=i, true),
-                    None => posterior.arrival(believed, 0..destinations.len(), false),
-                }
-            }
-            Followed::Pointing(pointing) => pointing.arrival(destinations, &posterior.shares(only)),
+            Followed::Papers { movement, frozen } => posterior.arrival(frozen.as_deref().unwrap_or(movement), &shares),
+            Followed::Pointing(pointing) => Some(pointing.arrival(destinations, &shares)),
         }
     }
 
@@ -142,7 +133,7 @@ impl Track {
         if observations < 2 || self.expired() {
             return None;
         }
-        let arrival = self.arrival(posterior, destinations, None);
+        let arrival = self.arrival(posterior, destinations, None)?;
         Some(Remaining {
             mean: arrival.mean - elapsed,
             low: arrival.quantile(0.1) - elapsed,
@@ -158,21 +149,23 @@ impl Track {
         later: f64,
         only: Option<usize>,
     ) -> Option<Gaussian> {
+        let shares = posterior.shares(destinations, only);
         match &self.followed {
             Followed::Papers { movement, frozen } => {
-                posterior.state(frozen.as_deref().unwrap_or(movement), movement, destinations, later, only)
+                posterior.state(frozen.as_deref().unwrap_or(movement), movement, destinations, &shares, later)
             }
-            Followed::Pointing(pointing) => Some(pointing.state(destinations, &posterior.shares(only), later)),
+            Followed::Pointing(pointing) => Some(pointing.state(destinations, &shares, later)),
         }
     }
 
     /// The smoothed state at the first observation.
     pub(super) fn initial_state(&self, posterior: &Posterior, destinations: &Destinations) -> Option<Gaussian> {
+        let shares = posterior.shares(destinations, None);
         match &self.followed {
             Followed::Papers { movement, frozen } => {
-                posterior.initial_state(frozen.as_deref().unwrap_or(movement), destinations)
+                posterior.initial_state(frozen.as_deref().unwrap_or(movement), &shares)
             }
-            Followed::Pointing(pointing) => Some(pointing.initial_state(destinations, &posterior.shares(None))),
+            Followed::Pointing(pointing) => Some(pointing.initial_state(destinations, &shares)),
         }
     }
 
@@ -181,10 +174,16 @@ impl Track {
         match &mut self.followed {
             Followed::Papers { movement, frozen } => {
                 let Some(plan) = scenario.engine.plan(destinations, &self.start) else { return };
-                if let Some(frozen) = frozen {
-                    frozen.replan(plan.clone(), origin);
-                }
-                movement.replan(plan, origin);
+                let alive = plan.is_alive(movement.elapsed);
+                movement.replan(plan.clone(), origin);
+                *frozen = match frozen.take() {
+                    _ if alive => None,
+                    Some(mut before) => {
+                        before.replan(plan, origin);
+                        Some(before)
+                    }
+                    None => Some(Box::new(movement.clone())),
+                };
             }
             Followed::Pointing(pointing) => pointing.replan(destinations),
         }

@@ -99,8 +99,9 @@ impl Course {
         Self { dimensions: position.len().min(3), start, elapsed: 0.0, observations: 1, axes }
     }
 
-    /// Takes in one more observation, `step` seconds after the last one; none marks an axis that was not observed.
-    pub fn advance(&mut self, parameters: &Parameters, step: f64, position: &[Option<f64>], variances: &[f64]) {
+    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
+    pub fn advance(&mut self, parameters: &Parameters, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+        let step = elapsed - self.elapsed;
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
         for (axis, (observed, &variance)) in self.axes.iter_mut().zip(position.iter().zip(variances)) {
@@ -109,7 +110,7 @@ impl Course {
                 axis.correct(*observed, variance);
             }
         }
-        self.elapsed += step;
+        self.elapsed = elapsed;
         self.observations += 1;
     }
 

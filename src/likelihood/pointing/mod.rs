@@ -85,9 +85,9 @@ impl Pointing {
         pointing
     }
 
-    /// Takes in one more observation, `step` seconds after the last one; none marks an axis that was not observed.
-    pub fn advance(&mut self, step: f64, position: &[Option<f64>], variances: &[f64]) {
-        self.course.advance(&self.parameters, step, position, variances);
+    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
+    pub fn advance(&mut self, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+        self.course.advance(&self.parameters, elapsed, position, variances);
     }
 
     /// The movement so far.

@@ -2,13 +2,10 @@
 
 pub mod state;
 
-use super::Posterior;
 use super::arrival_time::Arrival;
+use super::{Posterior, Shares};
 use crate::likelihood::pointing::Pointing;
 use crate::model::destination::Destinations;
-
-/// Destinations that are asked about, each with its share; the shares need not sum to one.
-pub type Shares<'a> = &'a [(usize, f64)];
 
 impl Posterior {
     /// Multiplies likelihoods, priors and the factor `near`, normalises together with none of them, whose prior is `none`,
@@ -35,15 +32,6 @@ impl Posterior {
         let share = uniform * (1.0 - self.none) / possible as f64;
         for (value, prior) in self.probabilities.iter_mut().zip(priors) {
             *value = (1.0 - uniform) * *value / sum + if *prior > 0.0 { share } else { 0.0 };
-        }
-    }
-
-    /// The destinations with their shares of what is not none, or one of them alone.
-    #[must_use]
-    pub fn shares(&self, only: Option<usize>) -> Vec<(usize, f64)> {
-        match only {
-            Some(i) => vec![(i, 1.0)],
-            None => self.probabilities.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect(),
         }
     }
 }
