@@ -3,6 +3,7 @@
 use crate::support::{golden, numbers, predictor, relative, scenario_of};
 use serde_json::Value as Json;
 
+/// Every golden case of a predictor: sequences (`cm-`) and the pointing model have tests of their own.
 const CASES: [&str; 13] = [
     "brownian2d",
     "ca2d",
