@@ -44,7 +44,7 @@ async function start(): Promise<void> {
     fan,
     chart,
     announcer,
-    believer: new Believer({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") }, PLACES),
+    believer: new Believer({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") }, labels),
     numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }),
   });
 

@@ -1,6 +1,5 @@
 /** The right-hand side: the leading five, none of them, the time to go. */
 import type { Belief } from "../belief/predictions.ts";
-import type { Place } from "../destinations.ts";
 import { percent, seconds } from "./format.ts";
 import { reorder } from "./order.ts";
 
@@ -8,6 +7,7 @@ const SHOWN = 5;
 
 interface Row {
   readonly element: HTMLElement;
+  readonly name: HTMLElement;
   readonly figure: HTMLElement;
 }
 
@@ -19,14 +19,17 @@ export interface BelieverParts {
 }
 
 export class Believer {
-  readonly #rows: readonly Row[];
+  readonly #labels: readonly string[];
   readonly #parts: BelieverParts;
+  /** The rows stay where they are, one for each rank: what moves is their light. */
+  readonly #rows: readonly Row[];
   #order: number[];
 
-  constructor(parts: BelieverParts, places: readonly Place[]) {
+  constructor(parts: BelieverParts, labels: readonly string[]) {
+    this.#labels = labels;
     this.#parts = parts;
-    this.#rows = places.map((place) => row(place.label));
-    this.#order = places.map((_, index) => index);
+    this.#rows = Array.from({ length: SHOWN }, row);
+    this.#order = labels.map((_, index) => index);
     parts.rows.append(...this.#rows.map((each) => each.element));
   }
 
@@ -37,15 +40,12 @@ export class Believer {
 
   paint({ probabilities, none, timeToGo }: Belief): void {
     this.#order = reorder(this.#order, probabilities);
-    this.#order.forEach((index, rank) => {
-      const each = this.#rows[index];
-      if (!each) return;
+    this.#rows.forEach(({ element, name, figure }, rank) => {
+      const index = this.#order[rank] ?? 0;
       const probability = probabilities[index] ?? 0;
-      each.element.style.setProperty("--rank", String(Math.min(rank, SHOWN)));
-      each.element.style.setProperty("--probability", probability.toFixed(4));
-      each.element.toggleAttribute("data-shown", rank < SHOWN);
-      each.element.toggleAttribute("data-strip", rank < 3);
-      if (rank < SHOWN) write(each.figure, percent(probability));
+      write(name, this.#labels[index] ?? "");
+      write(figure, percent(probability));
+      element.style.setProperty("--share", probability.toFixed(4));
     });
     this.#parts.none.style.setProperty("--probability", none.toFixed(6));
     write(this.#parts.none, percent(none));
@@ -59,16 +59,15 @@ function write(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
-function row(label: string): Row {
+function row(): Row {
   const element = document.createElement("li");
   element.className = "row";
   const name = document.createElement("span");
   name.className = "row-name";
-  name.textContent = label;
   const figure = document.createElement("span");
   figure.className = "row-figure figure";
   const bar = document.createElement("span");
   bar.className = "row-bar";
   element.append(name, figure, bar);
-  return { element, figure };
+  return { element, name, figure };
 }

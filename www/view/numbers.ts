@@ -43,5 +43,5 @@ export class Numbers {
 }
 
 export function sentence({ rightSince, lead }: Outcome): string {
-  return rightSince === null ? "not on top at the press" : `right ${milliseconds(lead)} before the press`;
+  return rightSince === null ? "not on top before the press" : `right ${milliseconds(lead)} before the press`;
 }

@@ -6,10 +6,14 @@ import { destinationOf } from "./walk.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** Steps of brightness: finer ones would restyle every icon at every frame, and nobody would see it. */
+const LIGHTS = 200;
+
 export class Screen {
   readonly #root: HTMLElement;
   readonly #buttons: readonly HTMLButtonElement[];
   readonly #places: readonly Place[];
+  readonly #lights: number[] = [];
   #predicted: number | null = null;
 
   constructor(root: HTMLElement, grid: HTMLElement, places: readonly Place[]) {
@@ -58,7 +62,14 @@ export class Screen {
   }
 
   paint(probabilities: ArrayLike<number>, predicted: number | null): void {
-    this.#buttons.forEach((each, index) => each.style.setProperty("--probability", (probabilities[index] ?? 0).toFixed(6)));
+    this.#buttons.forEach((each, index) => {
+      const probability = probabilities[index] ?? 0;
+      each.style.setProperty("--probability", probability.toFixed(6));
+      const light = Math.round(probability * LIGHTS) / LIGHTS;
+      if (light === this.#lights[index]) return;
+      this.#lights[index] = light;
+      each.style.setProperty("--light-share", String(light));
+    });
     if (predicted === this.#predicted) return;
     if (this.#predicted !== null) this.#buttons[this.#predicted]?.removeAttribute("data-predicted");
     if (predicted !== null) this.#buttons[predicted]?.setAttribute("data-predicted", "true");
