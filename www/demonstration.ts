@@ -29,6 +29,8 @@ interface Track {
   latest: number | null;
 }
 
+const START = "Move towards an icon.";
+
 /** The ghost is a pointer like any other; real ones have identifiers from 0. */
 const GHOST = -1;
 
@@ -96,9 +98,18 @@ export class Demonstration {
     this.#views.announcer.say(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
   }
 
-  /** A pointer is lost sight of; it may come back. */
+  /** A movement ends here, with or without something to show for it. */
   end(pointerId: number): void {
     this.#tracks.get(pointerId)?.segmenter.end();
+  }
+
+  /** A pointer turned away from the screen; it may come back. */
+  lose(pointerId: number): void {
+    this.end(pointerId);
+    if (this.#shown !== pointerId) return;
+    this.#shown = null;
+    this.#quieten();
+    this.#views.announcer.say(START);
   }
 
   /** A pointer is gone for good. */
@@ -138,7 +149,7 @@ export class Demonstration {
       gone: () => {
         this.forget(GHOST);
         this.#quieten();
-        this.#views.announcer.say("Move towards an icon.", true);
+        this.#views.announcer.say(START, true);
       },
     };
   }

@@ -68,7 +68,7 @@ async function start(): Promise<void> {
       demonstration.press(pointerId, sample, screen.iconAt(sample.x, sample.y));
       demonstration.forget(pointerId);
     },
-    lost: (pointerId) => demonstration.end(pointerId),
+    lost: (pointerId) => demonstration.lose(pointerId),
   });
 
   const sizes = new ResizeObserver(() => {

@@ -1,6 +1,7 @@
 // The page itself: sizes, keyboard, theme, reduced motion, a browser that forbids WebAssembly.
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
+import { build } from "esbuild";
 import { movement } from "./hand.mjs";
 import { launch, middles, mouse, open, read, serve } from "./support.mjs";
 
@@ -162,6 +163,32 @@ describe("page", () => {
     );
     assert.equal(moving, 0);
     await close();
+  });
+
+  it("shows ten lines that do what it says", async () => {
+    const { page: shown, close } = await fresh();
+    const listing = await shown.locator("#listing").textContent();
+    await close();
+    assert.equal(listing.split("\n").length, 10);
+    const { outputFiles } = await build({
+      stdin: { contents: listing, resolveDir: import.meta.dirname },
+      bundle: true,
+      format: "esm",
+      write: false,
+    });
+    // Whatever page these lines are put into, its policy is not at stake here.
+    const page = await browser.newPage({ bypassCSP: true });
+    await page.goto(host.url);
+    await page.setContent('<button id="left">Left</button><button id="right" style="margin-left: 700px">Right</button>');
+    const errors = [];
+    page.on("pageerror", (error) => errors.push(error.message));
+    const said = page.waitForEvent("console", { predicate: async (message) => (await message.args()[0]?.jsonValue())?.probability > 0.9 });
+    await page.evaluate((url) => import(url), `data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
+    const hand = await mouse(page);
+    await hand.play(movement({ x: 40, y: 300 }, { x: 780, y: 18 }, 40, { seed: 1 }));
+    assert.equal((await (await said).args()[0].jsonValue()).id, "right");
+    assert.deepEqual(errors, []);
+    await page.close();
   });
 
   it("says in words why it cannot start", async () => {

@@ -26,7 +26,7 @@ describe("recorded hands", { skip }, () => {
     await host.close();
   });
 
-  it("are understood: 50 tracks, each moved so that it ends in the icon that it is nearest to in length and angle", async (test) => {
+  it("are understood: 50 tracks, each moved by a similarity to the pair of icons that it is nearest to in length and angle", async (test) => {
     const { page, sins, close } = await open(browser, host.url);
     const hand = await mouse(page);
     const icons = await middles(page);
@@ -38,12 +38,12 @@ describe("recorded hands", { skip }, () => {
         count += 1;
         const { samples, icon } = onPage(track, icons);
         const start = samples[0];
-        const half = samples.findIndex(([time]) => time > 0.75 * samples.at(-1)[0]);
+        const later = samples.findIndex(([time]) => time > 0.75 * samples.at(-1)[0]);
         await hand.play([[0, start[1], start[2]]]);
         await hand.rest(0.15);
-        await hand.play(samples.slice(0, half));
+        const clock = await hand.play(samples.slice(0, later));
         if ((await read(page)).top.id === icon.id) rightAtThreeQuarters += 1;
-        await hand.play(samples.slice(half).map(([time, x, y]) => [time - samples[half][0], x, y]));
+        await hand.play(samples.slice(later), clock);
         const shown = await read(page);
         assert.ok(Math.abs(shown.sum - 1) < 1e-4, `${track.id}: the sum is ${shown.sum}`);
         if (shown.top.id === icon.id) rightAtPress += 1;
@@ -54,6 +54,11 @@ describe("recorded hands", { skip }, () => {
     test.diagnostic(`right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page says ${shown.join(", ")}`);
     assert.equal(count, 50);
     assert.equal(shown[3], "Over 50 presses");
+    // Set with room below what was measured when this was written: 45, 44, 665 ms, 8%.
+    assert.ok(rightAtThreeQuarters >= 38, `${rightAtThreeQuarters} right at 75% of the time`);
+    assert.ok(rightAtPress >= 38, `${rightAtPress} right at the press`);
+    assert.ok(Number.parseInt(shown[0]) >= 300, `median lead ${shown[0]}`);
+    assert.ok(Number.parseInt(shown[2]) <= 20, `early and wrong ${shown[2]}`);
     assert.deepEqual(sins, []);
     await close();
   });

@@ -69,9 +69,8 @@ export async function mouse(page) {
   /** Never earlier than what has been sent. */
   const begin = () => (last = Math.max(last, Date.now() / 1000));
   return {
-    /** Samples `[seconds from now, x, y]`, played to the end. */
-    async play(samples) {
-      const start = begin();
+    /** Samples `[seconds, x, y]`, played to the end; from now on, or on the clock of a movement that this one goes on with. */
+    async play(samples, start = begin()) {
       const sent = [];
       for (const [time, x, y] of samples) {
         await until(start + time);
@@ -79,6 +78,7 @@ export async function mouse(page) {
         sent.push(send("mouseMoved", last, { x, y }));
       }
       await Promise.all(sent);
+      return start;
     },
     async rest(seconds) {
       await until(begin() + seconds);

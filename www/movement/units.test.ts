@@ -13,7 +13,7 @@ function feed(segmenter: Segmenter, samples: readonly Sample[]) {
 
 describe("segmenter", () => {
   it("begins a movement with its onset, not with the sample that gave it away", () => {
-    const cuts = feed(new Segmenter(), [at(0, 0), at(0.016, 2), at(0.032, 5), at(0.048, 11), at(0.064, 20)]);
+    const cuts = feed(new Segmenter(), [at(0, 0), at(0.016, 2), at(0.032, 7), at(0.048, 15), at(0.064, 25)]);
     assert.deepEqual(cuts.map((cut) => cut.samples.length), [0, 0, 0, 4, 1]);
     assert.deepEqual(cuts.map((cut) => cut.fresh), [false, false, false, true, false]);
   });

@@ -28,6 +28,7 @@ export class Chart {
   restyle(): void {
     this.#plot.destroy();
     this.#plot = this.#make();
+    this.#fitTime();
   }
 
   /** A movement under way, or with its outcome a finished one. */
@@ -43,7 +44,11 @@ export class Chart {
     }
     this.#data = [times, ...stack(columns)];
     this.#plot.setData(this.#data, false);
-    this.#plot.setScale("x", { min: 0, max: Math.max(SHORTEST, times.at(-1) ?? 0) });
+    this.#fitTime();
+  }
+
+  #fitTime(): void {
+    this.#plot.setScale("x", { min: 0, max: Math.max(SHORTEST, this.#data[0].at(-1) ?? 0) });
   }
 
   #size(): { width: number; height: number } {
