@@ -2,7 +2,7 @@
 import { join } from "node:path";
 import { build } from "./build.mjs";
 import { incremental } from "./incremental.mjs";
-import { main, root } from "./run.mjs";
+import { main, root, run } from "./run.mjs";
 
 export const folder = join(root, "www/dist");
 
@@ -10,6 +10,7 @@ export async function buildDemo() {
   await build();
   const inputs = ["dist", "www", "package-lock.json", "scripts/build-demo.mjs"];
   await incremental("demo", { inputs, ignore: "www/dist", outputs: ["www/dist/index.html"] }, async () => {
+    await run("node", ["node_modules/typescript/bin/tsc", "--project", "www"]);
     const vite = await import("vite");
     await vite.build({
       root: join(root, "www"),
