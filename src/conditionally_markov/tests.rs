@@ -293,3 +293,25 @@ fn reset_forgets_the_measurements_and_nothing_else() {
     assert_eq!(sequence.state(3).unwrap(), before);
     assert_eq!(sequence.step(), 0);
 }
+#[test]
+fn a_movement_towards_its_destination_takes_the_mean_end_for_the_centre() {
+    let offset = |drift: serde_json::Value| {
+        sequence(serde_json::json!({
+            "motion": drift, "timeStep": 0.5, "steps": 4, "pinnedMean": [0, 3],
+            "pinnedCovariance": [[1, 0], [0, 1]], "observation": { "noise": 1 },
+        }))
+        .model(2)
+        .unwrap()
+    };
+    let custom = |gain: f64, offset: f64| {
+        serde_json::json!({
+            "type": "custom", "dimensions": 1, "drift": [[-0.4]], "offset": [offset],
+            "destinationGain": [[gain]], "diffusion": [[0.2]],
+        })
+    };
+    // dx = -0.4 (x - c) dt with c = 3 is dx = (-0.4 x + 1.2) dt
+    let (knows, told) = (offset(custom(0.4, 0.0)), offset(custom(0.0, 1.2)));
+    assert!((knows.offset - told.offset).amax() < 1e-14);
+    assert_eq!(knows.previous, told.previous);
+}
+
