@@ -11,7 +11,7 @@
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, Gaussian, propagate};
 use crate::model::bridge::Bridge;
-use crate::model::motion::{Motion, MotionModel, Transition};
+use crate::model::motion::{Motion, MotionModel};
 use crate::model::observation::{ObservationModel, read_covariance};
 use crate::value::{Fields, Node, Value, number};
 use nalgebra::{DMatrix, DVector};
@@ -60,7 +60,7 @@ enum Evolution {
         motion: Arc<dyn MotionModel>,
         times: Times,
         /// The centre of the destination, for motion models that know it.
-        centre: DVector<f64>,
+        centre: Vec<f64>,
     },
     /// As steps 1 to `N - 1` say.
     Given(Vec<StepModel>),
@@ -118,7 +118,7 @@ impl Model {
         let mean = DVector::from_vec(fields.required("pinnedMean")?.vector(Some(size))?);
         let covariance = read_covariance(&fields.required("pinnedCovariance")?, size)?;
         let observation = ObservationModel::read(&fields.required("observation")?, dimensions, states)?;
-        let centre = mean.rows(size - states, dimensions).into_owned();
+        let centre = mean.rows(size - states, dimensions).iter().copied().collect();
         let evolution = Evolution::Induced { motion, times, centre };
         let model = Self { pins, pinned: Gaussian { mean, covariance }, states, dimensions, observation, evolution };
         model.can_be_pinned(&fields)?;
@@ -206,7 +206,7 @@ impl Model {
                 let rest = motion.transition(times.between(to, self.next_pin(from)));
                 let bridge = Bridge::new(&step.transition, &step.noise, &rest.transition, &rest.noise, self.states)
                     .ok_or_else(|| not_pinnable("motion"))?;
-                let offset = bridge.offset(&offset(&step, centre), &offset(&rest, centre));
+                let offset = bridge.offset(&step.constant(centre), &rest.constant(centre));
                 let Bridge { previous, destination, covariance, .. } = bridge;
                 Ok(StepModel { previous, destination, offset, covariance })
             }
@@ -231,14 +231,6 @@ impl Model {
             },
             None => Ok(()),
         }
-    }
-}
-
-/// `M + B c`.
-fn offset(step: &Transition, centre: &DVector<f64>) -> DVector<f64> {
-    match &step.destination_gain {
-        Some(gain) => gain * centre + &step.offset,
-        None => step.offset.clone(),
     }
 }
 

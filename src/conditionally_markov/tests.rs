@@ -314,4 +314,3 @@ fn a_movement_towards_its_destination_takes_the_mean_end_for_the_centre() {
     assert!((knows.offset - told.offset).amax() < 1e-14);
     assert_eq!(knows.previous, told.previous);
 }
-

@@ -1,0 +1,68 @@
+//! Remakes the experiments of the three papers: prints their tables and writes `target/reproduce/index.html`, with each figure
+//! beside what the paper states. `npm run reproduce`, or `cargo run --release --example reproduce -- --quick`.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod ardeshiri;
+mod gestures;
+mod liang;
+mod movement;
+mod plot;
+mod random;
+mod report;
+mod rezaie_li;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// How many tracks and runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Effort {
+    /// As many as in the papers.
+    Full,
+    /// Enough to see that everything works.
+    Quick,
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let effort = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => Effort::Full,
+        ["--quick"] => Effort::Quick,
+        _ => {
+            eprintln!("usage: reproduce [--quick]");
+            return ExitCode::FAILURE;
+        }
+    };
+    let start = Instant::now();
+    let progress = ProgressBar::new(rezaie_li::work(effort) + liang::work(effort) + ardeshiri::work(effort));
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3}% {elapsed} {msg}").expect("the template is legal");
+    progress.set_style(style);
+    let papers: [fn(Effort, &ProgressBar) -> report::Chapter; 3] =
+        [liang::chapter, ardeshiri::chapter, rezaie_li::chapter];
+    let chapters = papers.map(|chapter| {
+        let chapter = chapter(effort, &progress);
+        progress.suspend(|| {
+            println!("\n{}\n", chapter.citation);
+            chapter.exhibits.iter().for_each(report::Exhibit::print);
+        });
+        chapter
+    });
+    progress.finish_and_clear();
+    let introduction = format!(
+        "Each figure and table of the three papers that can be remade without their private recordings, beside what the paper states. \
+         Seeded: every run gives the same numbers, but for the run times.{}",
+        if matches!(effort, Effort::Quick) { " This is a quick run with fewer tracks." } else { "" }
+    );
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/reproduce");
+    let file = folder.join("index.html");
+    if let Err(error) =
+        std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&file, report::page(&chapters, &introduction)))
+    {
+        eprintln!("{}: {error}", file.display());
+        return ExitCode::FAILURE;
+    }
+    println!("{} ({:.0} s)", file.display(), start.elapsed().as_secs_f64());
+    ExitCode::SUCCESS
+}
