@@ -3,7 +3,7 @@
 use crate::Effort;
 use crate::gestures::{self, Gesture, gesture, predictor_of};
 use crate::movement::{Movement, beliefs, mean, percent, share_on_top, top};
-use crate::plot::{COLOURS, Panel, Series, Stroke, chart};
+use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::random::Normals;
 use crate::report::{Chapter, Exhibit, Table};
 use indicatif::ProgressBar;
@@ -70,6 +70,7 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
             title: title.into(),
             x: ("time (s)", 0.0..last),
             y: ("p(D | y)", 0.0..1.02),
+            legend: Corner::UpperLeft,
             series: (0..selected.targets.len()).map(line).collect(),
         }
     };
@@ -140,6 +141,7 @@ fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
                     title: format!("p of {name}, going there"),
                     x: ("time (s)", 0.0..last),
                     y: ("", 0.0..1.02),
+                    legend: Corner::LowerRight,
                     series: vec![
                         Series::new("exact", COLOURS[0], line(&both[0])),
                         Series::new("approximate", COLOURS[1], line(&both[1])).stroke(Stroke::Dashed),

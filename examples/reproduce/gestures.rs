@@ -33,11 +33,11 @@ pub fn predictor_of(targets: &[[f64; 4]], method: &str, noise: f64) -> Scenario 
 pub const PREDICTOR: &str = "The predictor: metres and seconds, an endpoint of position only with the target's size, an arrival time of U(0.2 s, 2 s) after the first observation with Simpson's rule and q = 15, observations with a deviation of 3 mm, 1 m/s for the velocity at the start.";
 
 /// What was assumed of the simulated gestures.
-pub const SIMULATION: &str = "Simulated gestures at 50 Hz: from a hand at about 0.45 m in front of the screen, minimum jerk to a first endpoint that misses by a twelfth of the way, a second one to the target from three quarters of the time on, a sideways bow, tremor at 8 to 11 Hz (0.7 mm), road vibration that resonates at 4 Hz (4 mm), tracker noise of 2 mm; their duration by Fitts's law, 0.3 s + 0.12 s log2(D/W + 1), with 20% spread. 21 icons of 24 mm, 7 by 3, 32 mm apart.";
+pub const SIMULATION: &str = "Simulated gestures at 50 Hz: from a hand at about 0.45 m in front of the screen, minimum jerk to a first endpoint that falls short by 4% of the way and misses by 6% along and 2.5% across it, a second one to the target from three quarters of the time on, a sideways bow of 3%, tremor at 8 to 11 Hz (0.7 mm), road vibration that resonates at 4 Hz (2 mm), tracker noise of 2 mm; their duration by Fitts's law, 0.3 s + 0.12 s log2(D/W + 1), with 20% spread. 21 icons of 24 mm, 7 by 3, 40 mm apart.";
 
 /// The icons on the dashboard's screen, 7 by 3, in the plane z = 0.
 pub fn icons() -> Vec<[f64; 4]> {
-    (0..21).map(|i| [0.032 * f64::from(i % 7 - 3), 0.032 * f64::from(1 - i / 7), 0.0, 0.024]).collect()
+    (0..21).map(|i| [0.04 * f64::from(i % 7 - 3), 0.04 * f64::from(1 - i / 7), 0.0, 0.024]).collect()
 }
 
 /// Gestures to random icons.
@@ -60,11 +60,11 @@ pub fn gesture(start: Vector3<f64>, targets: &[[f64; 4]], truth: usize, random: 
     let end = Vector3::new(x, y, z) + vector(random, size / 8.0);
     let way = end - start;
     let duration = (0.3 + 0.12 * (way.norm() / size + 1.0).log2()) * (0.2 * random.draw()).exp();
-    let first_end = end + vector(random, way.norm() / 12.0) - way * 0.04;
-    let bow = way.cross(&vector(random, 1.0)).normalize() * (0.05 * way.norm() * random.draw());
+    let first_end = end + vector(random, 0.025 * way.norm()) + way * (0.06 * random.draw() - 0.04);
+    let bow = way.cross(&vector(random, 1.0)).normalize() * (0.03 * way.norm() * random.draw());
     let tremor: [(f64, f64); 3] = std::array::from_fn(|_| (random.between(8.0, 11.0), random.between(0.0, TAU)));
     let mut vibration = Vibration::new(4.0, 0.25, 1.0 / RATE);
-    let shake = Vector3::new(0.0015, 0.0035, 0.0015);
+    let shake = Vector3::new(0.001, 0.0015, 0.001);
     for _ in 0..200 {
         vibration.next(random);
     }

@@ -60,7 +60,17 @@ pub struct Panel {
     pub title: String,
     pub x: (&'static str, Range<f64>),
     pub y: (&'static str, Range<f64>),
+    /// Where the legend stands clear of the lines.
+    pub legend: Corner,
     pub series: Vec<Series>,
+}
+
+/// A corner of a panel.
+#[derive(Clone, Copy, Debug)]
+pub enum Corner {
+    UpperLeft,
+    LowerRight,
+    MiddleRight,
 }
 
 /// Panels side by side, `columns` in a row, as SVG.
@@ -131,7 +141,11 @@ fn draw(panel: &Panel, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
     if !named.is_empty() {
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
+            .position(match panel.legend {
+                Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
+                Corner::LowerRight => SeriesLabelPosition::LowerRight,
+                Corner::MiddleRight => SeriesLabelPosition::MiddleRight,
+            })
             .background_style(WHITE.mix(0.85))
             .border_style(GRID)
             .label_font(text(13))

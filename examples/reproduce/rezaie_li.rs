@@ -1,6 +1,6 @@
 //! Rezaie and Li, "Destination-Directed Trajectory Modeling and Prediction Using Conditionally Markov Sequences", section IV.
 
-use crate::plot::{COLOURS, Panel, Series, Stroke, chart};
+use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::report::{Chapter, Exhibit};
 use crate::{Effort, random};
 use indicatif::ProgressBar;
@@ -86,8 +86,12 @@ fn figure1() -> Exhibit {
         [("Markov", markov(), Stroke::Dashed), ("CM_L", directed(), Stroke::Solid)].into_iter().enumerate()
     {
         let drawn = sequence.sample(1, 50).expect("50 sequences of 101 states are not too many");
-        let spread: f64 = drawn.iter().map(|x| (x[401] - mean(drawn.iter().map(|x| x[401]))).powi(2)).sum();
-        ends[place] = (spread / 49.0).sqrt();
+        // both axes have the same variance
+        let spread = |at: usize| -> f64 {
+            let middle = mean(drawn.iter().map(|x| x[at]));
+            drawn.iter().map(|x| (x[at] - middle).powi(2)).sum()
+        };
+        ends[place] = ((spread(400) + spread(401)) / (2.0 * 49.0)).sqrt();
         for trajectory in drawn {
             let points = trajectory.chunks(4).map(|x| (x[0] / 1000.0, x[1] / 1000.0));
             let colour = COLOURS[1 - place];
@@ -97,7 +101,7 @@ fn figure1() -> Exhibit {
     let mut exhibit = Exhibit {
         title: "Figure 1: 50 trajectories of the CM_L sequence and 50 of the Markov sequence".into(),
         figures: vec![chart(
-            &[Panel { title: String::new(), x: ("x (km)", 0.0..160.0), y: ("y (km)", -20.0..40.0), series }],
+            &[Panel { title: String::new(), x: ("x (km)", 0.0..140.0), y: ("y (km)", -15.0..25.0), legend: Corner::UpperLeft, series }],
             1,
             (760, 460),
         )],
@@ -107,12 +111,12 @@ fn figure1() -> Exhibit {
         ..Exhibit::default()
     };
     exhibit.compare(
-        "deviation of y at the end, CM_L",
+        "deviation of a position at the end, CM_L",
         "31.6 m (C_N)",
         format!("{:.1} m", ends[1]),
         format!("ratio {:.2}", ends[1] / 1000f64.sqrt()),
     );
-    exhibit.compare("deviation of y at the end, Markov", "not stated", format!("{:.0} m", ends[0]), "");
+    exhibit.compare("deviation of a position at the end, Markov", "not stated", format!("{:.0} m", ends[0]), "");
     exhibit
 }
 
@@ -149,6 +153,7 @@ fn figure2(runs: usize, progress: &ProgressBar) -> Exhibit {
                 title: String::new(),
                 x: ("n", 0.0..92.0),
                 y: ("log10 AEE of the position at 9 + n given 9 (m)", 1.0..5.0),
+                legend: Corner::UpperLeft,
                 series: vec![
                     Series::new("Markov", COLOURS[1], points(&errors[1])).stroke(Stroke::Dashed),
                     Series::new("CM_L", COLOURS[0], points(&errors[0])),

@@ -3,7 +3,7 @@
 use crate::Effort;
 use crate::gestures::{self, Gesture, predictor_of};
 use crate::movement::{METHODS, beliefs, mean, percent, share_on_top};
-use crate::plot::{COLOURS, Panel, Series, Stroke, chart};
+use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::report::{Exhibit, Table};
 use indicatif::ProgressBar;
 
@@ -101,7 +101,7 @@ fn exhibit(title: &str, gestures: &[Gesture], assumed: Vec<String>, progress: &P
     let mut exhibit = Exhibit {
         title: format!("{title} ({} gestures)", gestures.len()),
         figures: vec![chart(
-            &[Panel { title: String::new(), x: ("sigma (m/s^1.5)", 0.0..3.0), y: ("success (% of the time)", 0.0..100.0), series }],
+            &[Panel { title: String::new(), x: ("sigma (m/s^1.5)", 0.0..3.0), y: ("success (% of the time)", 0.0..100.0), legend: Corner::LowerRight, series }],
             1,
             (760, 380),
         )],

@@ -5,6 +5,7 @@ use crate::movement::Movement;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix};
 use whither::math::gaussian::{Gaussian, condition, propagate};
 use whither::model::bridge::Bridge;
+use whither::scenario::Engine;
 use whither::{Predictor, Scenario};
 
 /// The mean distances after each observation but the first, averaged over destinations and arrival times: original and
@@ -12,7 +13,8 @@ use whither::{Predictor, Scenario};
 pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let motion = scenario.motion.candidates[0].model.as_ref();
     let (s, ends) = (motion.states(), scenario.destinations.len());
-    let arrival = scenario.arrival.grid(&scenario.quadrature, 0.0, 0.0);
+    let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { return Vec::new() };
+    let arrival = arrival.grid(quadrature, 0.0, 0.0);
     let first = first_posterior(scenario, movement);
     let noise = scenario.observation.noise().clone();
     let observation = DMatrix::from_fn(noise.nrows(), s, |i, j| f64::from(u8::from(i == j)));
@@ -135,6 +137,6 @@ fn bhattacharyya(one: &Gaussian, two: &Gaussian) -> f64 {
     let inverse = middle.clone().try_inverse().expect("it is positive definite");
     let apart = (difference.transpose() * inverse * &difference)[0] / 8.0;
     let determinants = (one.covariance.determinant() * two.covariance.determinant()).sqrt();
-    // rounding may leave the ratio below one
-    apart + 0.5 * (middle.determinant() / determinants).ln().max(0.0)
+    // rounding may leave the ratio of equal ones below one
+    apart + 0.5 * (middle.determinant() / determinants).ln().abs()
 }
