@@ -15,7 +15,7 @@ const { page, sins } = await open(browser, host.url, { viewport: { width: 1280, 
 const hand = await mouse(page);
 const icons = new Map((await middles(page)).map((icon) => [icon.id, icon]));
 
-const tour = ["tyres", "camera", "parking", "settings", "navigation", "weather"].map((id) => icons.get(id));
+const tour = ["lights", "help", "navigation", "calendar", "phone", "camera", "tyres"].map((id) => icons.get(id));
 await hand.play([[0, tour[0].x, tour[0].y]]);
 for (const [index, to] of tour.slice(1).entries()) {
   await hand.rest(0.3);
@@ -24,7 +24,8 @@ for (const [index, to] of tour.slice(1).entries()) {
   await hand.press(to);
 }
 await hand.rest(0.6);
-await hand.play(movement(tour.at(-1), icons.get("drive-mode"), icons.get("drive-mode").width, { seed: 9, share: 0.62 }));
+const to = icons.get("seats");
+await hand.play(movement(tour.at(-1), to, to.width, { seed: 2, share: 0.66 }));
 await read(page);
 await page.waitForTimeout(900);
 await mkdir(new URL("../docs/", import.meta.url), { recursive: true });

@@ -7,6 +7,9 @@ const IDLE = 4;
 const DWELL = 0.18;
 const PAUSE = 1.4;
 
+/** The ghost is sampled like a common mouse, however seldom the page is drawn (seconds). */
+const SAMPLING = 0.01;
+
 export interface Stage {
   /** The middles of the icons and their size, in px from the screen's corner. */
   targets(): readonly { readonly x: number; readonly y: number; readonly width: number; readonly height: number }[];
@@ -31,10 +34,10 @@ export function haunt(element: HTMLElement, stage: Stage): () => void {
     element.hidden = true;
   };
 
-  const at = (point: Point, now: number): Sample => {
+  const at = (point: Point, time: number): Sample => {
     last = point;
     element.style.transform = `translate(${point.x}px, ${point.y}px)`;
-    return { time: now / 1000, x: point.x, y: point.y };
+    return { time, x: point.x, y: point.y };
   };
 
   const play = (set: number) => {
@@ -50,13 +53,14 @@ export function haunt(element: HTMLElement, stage: Stage): () => void {
   };
 
   const follow = (hand: Hand, index: number, set: number) => {
+    let sampled = 0;
     let pressed = false;
     const step = (now: number) => {
       const elapsed = (now - set) / 1000;
-      if (elapsed < hand.duration) stage.move(at(hand.at(elapsed), now));
-      else if (!pressed && elapsed > hand.duration + DWELL) {
+      for (; sampled <= Math.min(elapsed, hand.duration); sampled += SAMPLING) stage.move(at(hand.at(sampled), set / 1000 + sampled));
+      if (!pressed && elapsed > hand.duration + DWELL) {
         pressed = true;
-        stage.press(index, at(hand.at(hand.duration), now));
+        stage.press(index, at(hand.at(hand.duration), now / 1000));
       } else if (elapsed > hand.duration + DWELL + PAUSE) {
         play(now);
         return;

@@ -69,7 +69,7 @@ export class Chart {
     return new uPlot(
       {
         ...this.#size(),
-        padding: [1.75 * rem, 0.25 * rem, 0, 0],
+        padding: [1.75 * rem, rem, 0, 0],
         legend: { show: false },
         cursor: { show: false },
         scales: { x: { time: false }, y: { range: [0, 1] } },

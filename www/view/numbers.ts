@@ -21,7 +21,7 @@ export class Numbers {
 
   /** A movement is under way. */
   movement(simulated: boolean): void {
-    this.#say(simulated ? "Simulated hand, moving" : "Moving");
+    this.#say(simulated ? "Simulated hand, under way" : "Under way");
   }
 
   last(outcome: Outcome, label: string, simulated: boolean): void {
