@@ -4,7 +4,7 @@ import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./glue.js";
 import { disposable, freed } from "./lifetime.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
-import { decodeTree, encode, isList, MOST_ITEMS } from "./value.js";
+import { isList, MOST_ITEMS, plain } from "./value.js";
 
 /**
  * One observed position: a number for each observed axis, as an array, a typed array or anything with `length` and indices.
@@ -96,7 +96,7 @@ export class Predictor {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = scenario;
-    this.#engine = given instanceof Engine ? given : new Engine(...encode(given));
+    this.#engine = given instanceof Engine ? given : new Engine(plain(given));
   }
 
   /**
@@ -122,8 +122,8 @@ export class Predictor {
       }
     }
     const list = !isList(position) && typeof position === "object" && count <= MOST_ITEMS;
-    const observation = encode({ time, position: list ? Array.from(position) : position, noise });
-    this.#live().observe_in_full(...observation);
+    const observation = plain({ time, position: list ? Array.from(position) : position, noise });
+    this.#live().observe_in_full(observation);
   }
 
   /**
@@ -174,7 +174,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`.
    */
   arrival(id?: string): ArrivalTime | null {
-    const numbers = this.#live().arrival(...encode({ id }));
+    const numbers = this.#live().arrival(plain({ id }));
     if (numbers === undefined) return null;
     const nodes = (numbers.length - 2) / 2;
     return {
@@ -225,7 +225,7 @@ export class Predictor {
    * @throws {@link WhitherError} `out-of-range`, `not-finite`.
    */
   forecast(time: number): Gaussian | null {
-    const numbers = this.#live().forecast(...encode({ time }));
+    const numbers = this.#live().forecast(plain({ time }));
     return numbers ? gaussian(numbers) : null;
   }
 
@@ -238,7 +238,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, `out-of-range`, `not-finite`.
    */
   path(id: string, times: Vector): Float64Array {
-    return this.#live().path(...encode({ id, times }));
+    return this.#live().path(plain({ id, times }));
   }
 
   /**
@@ -248,7 +248,7 @@ export class Predictor {
    * accumulates evidence for each destination; and as the constructor does.
    */
   addDestination(destination: Destination): void {
-    this.#live().add_destination(...encode({ destination }));
+    this.#live().add_destination(plain({ destination }));
   }
 
   /**
@@ -259,7 +259,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, and as {@link addDestination} does.
    */
   updateDestination(id: string, destination: Omit<Destination, "id"> & { readonly id?: string }): void {
-    this.#live().update_destination(...encode({ id, destination }));
+    this.#live().update_destination(plain({ id, destination }));
   }
 
   /**
@@ -268,7 +268,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`; `no-destinations` for the last one; `method-accumulates`.
    */
   removeDestination(id: string): void {
-    this.#live().remove_destination(...encode({ id }));
+    this.#live().remove_destination(plain({ id }));
   }
 
   /**
@@ -278,7 +278,7 @@ export class Predictor {
    * @throws {@link WhitherError} as {@link addDestination} does.
    */
   setDestinations(destinations: readonly Destination[]): void {
-    this.#live().set_destinations(...encode({ destinations }));
+    this.#live().set_destinations(plain({ destinations }));
   }
 
   /** Begins a new movement with the same scenario and the destinations as they are now. */
@@ -301,7 +301,7 @@ export class Predictor {
    * ```
    */
   snapshot(): Snapshot {
-    return decodeTree(this.#live().snapshot()) as Snapshot;
+    return this.#live().snapshot() as Snapshot;
   }
 
   /**
@@ -311,7 +311,7 @@ export class Predictor {
    */
   static restore(snapshot: Snapshot): Predictor {
     loaded();
-    return adopt(Engine.restore(...encode(snapshot, "snapshot")));
+    return adopt(Engine.restore(plain(snapshot, "snapshot")));
   }
 
   /**

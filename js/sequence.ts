@@ -3,7 +3,7 @@ import { gaussian, type Gaussian } from "./gaussian.js";
 import { loaded, SequenceEngine } from "./glue.js";
 import { disposable, freed } from "./lifetime.js";
 import type { Matrix, Motion, Observation, Vector } from "./scenario.js";
-import { encode } from "./value.js";
+import { plain } from "./value.js";
 
 /** A sequence that is induced by a motion model, from an origin to a destination, by way of waypoints if there are any. */
 export interface SequenceParameters {
@@ -96,7 +96,7 @@ export class ConditionallyMarkovSequence {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = parameters;
-    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(...encode(given));
+    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(plain(given));
   }
 
   /**
@@ -106,7 +106,7 @@ export class ConditionallyMarkovSequence {
    */
   static fromParameters(parameters: GivenSequence): ConditionallyMarkovSequence {
     loaded();
-    return adopt(SequenceEngine.from_parameters(...encode(parameters)));
+    return adopt(SequenceEngine.from_parameters(plain(parameters)));
   }
 
   /**
@@ -117,7 +117,7 @@ export class ConditionallyMarkovSequence {
    */
   model(step: number): StepModel {
     const engine = this.#live();
-    const numbers = engine.model(...encode({ step }));
+    const numbers = engine.model(plain({ step }));
     const size = engine.states() ** 2;
     return {
       previous: numbers.slice(0, size),
@@ -135,7 +135,7 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `time-not-increasing`, `out-of-range`, `wrong-length`, `not-finite`.
    */
   measure(step: number, position: Vector): void {
-    this.#live().measure(...encode({ step, position }));
+    this.#live().measure(plain({ step, position }));
   }
 
   /**
@@ -145,7 +145,7 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `out-of-range`.
    */
   state(step: number): Gaussian {
-    return gaussian(this.#live().state(...encode({ step })));
+    return gaussian(this.#live().state(plain({ step })));
   }
 
   /** The state at the end, given all measurements so far. */
@@ -167,7 +167,7 @@ export class ConditionallyMarkovSequence {
    */
   sample(options: { readonly seed: number; readonly count: number }): Float64Array[] {
     const engine = this.#live();
-    const numbers = engine.sample(...encode(options));
+    const numbers = engine.sample(plain(options));
     const length = (engine.steps() + 1) * engine.states();
     return Array.from({ length: numbers.length / length }, (_, i) => numbers.slice(i * length, (i + 1) * length));
   }
@@ -179,7 +179,7 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isReciprocal(tolerance?: number): boolean {
-    return this.#live().is_reciprocal(...encode({ tolerance }));
+    return this.#live().is_reciprocal(plain({ tolerance }));
   }
 
   /**
@@ -188,7 +188,7 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isMarkov(tolerance?: number): boolean {
-    return this.#live().is_markov(...encode({ tolerance }));
+    return this.#live().is_markov(plain({ tolerance }));
   }
 
   /**

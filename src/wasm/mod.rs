@@ -1,13 +1,13 @@
 //! The boundary to JavaScript, and the only folder that names wasm-bindgen. The files here and those in `js/` mirror one another.
 //!
-//! Flat things cross: numbers, slices of numbers, strings, and whole objects as a [`tree`]. JavaScript has read all of a
+//! Flat things cross: numbers, slices of numbers, strings, and whole objects as plain [`data`]. JavaScript has read all of a
 //! user's object before it enters here, so that no getter and no proxy runs while a method borrows its engine.
 
+mod data;
 mod error;
 mod pointer;
 mod predictor;
 mod sequence;
-mod tree;
 
 use crate::math::gaussian::Gaussian;
 use error::WhitherError;

@@ -1,15 +1,15 @@
 //! What `js/pointer.ts` stands on.
 
-use super::Result;
-use super::tree::{self, Tree};
+use super::{Result, data};
 use crate::pointer::{self, PointerOptions, PointerTarget};
 use crate::value::Node;
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The scenario for `{ targets, options? }` on a screen.
 #[wasm_bindgen]
-pub fn pointer_scenario(numbers: &[f64], text: &str) -> Result<Tree> {
-    let value = tree::read(numbers, text)?;
+pub fn pointer_scenario(value: JsValue) -> Result<JsValue> {
+    let value = data::read(value)?;
     let node = Node::root(&value, "");
     let fields = node.fields(&["targets", "options"])?;
     let targets =
@@ -20,7 +20,7 @@ pub fn pointer_scenario(numbers: &[f64], text: &str) -> Result<Tree> {
     {
         options.none = none.number()?;
     }
-    Ok(Tree::new(&pointer::pointer_scenario(&targets, options)?.to_value()))
+    Ok(data::write(&pointer::pointer_scenario(&targets, options)?.to_value())?)
 }
 
 fn pointer_target(node: &Node<'_>) -> crate::Result<PointerTarget> {

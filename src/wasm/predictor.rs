@@ -1,10 +1,10 @@
 //! What `js/predictor.ts` stands on.
 
-use super::tree::{self, Tree};
-use super::{Result, flat};
+use super::{Result, data, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value};
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// What a JavaScript `Predictor` holds.
@@ -18,14 +18,14 @@ pub struct Engine {
 impl Engine {
     /// From a scenario.
     #[wasm_bindgen(constructor)]
-    pub fn new(numbers: &[f64], text: &str) -> Result<Engine> {
-        let scenario = Scenario::from_value(&tree::read(numbers, text)?)?;
+    pub fn new(value: JsValue) -> Result<Engine> {
+        let scenario = Scenario::from_value(&data::read(value)?)?;
         Ok(Self { predictor: Predictor::new(&scenario)? })
     }
 
     /// From a snapshot.
-    pub fn restore(numbers: &[f64], text: &str) -> Result<Engine> {
-        Ok(Self { predictor: Predictor::restore(&tree::read(numbers, text)?)? })
+    pub fn restore(value: JsValue) -> Result<Engine> {
+        Ok(Self { predictor: Predictor::restore(&data::read(value)?)? })
     }
 
     /// A second engine in the same state.
@@ -34,8 +34,8 @@ impl Engine {
     }
 
     /// A snapshot.
-    pub fn snapshot(&self) -> Tree {
-        Tree::new(&self.predictor.snapshot())
+    pub fn snapshot(&self) -> Result<JsValue> {
+        Ok(data::write(&self.predictor.snapshot())?)
     }
 
     /// An observation of the first `count` of three numbers.
@@ -46,8 +46,8 @@ impl Engine {
     }
 
     /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
-    pub fn observe_in_full(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn observe_in_full(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["time", "position", "noise"])?;
         let time = fields.required("time")?.number()?;
@@ -102,8 +102,8 @@ impl Engine {
     }
 
     /// The arrival time for `{ id? }`: mean, deviation, the times, their probabilities.
-    pub fn arrival(&mut self, numbers: &[f64], text: &str) -> Result<Option<Vec<f64>>> {
-        let value = tree::read(numbers, text)?;
+    pub fn arrival(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let id = node.get("id");
         let id = id.as_ref().map(Node::text).transpose()?;
@@ -132,16 +132,16 @@ impl Engine {
     }
 
     /// The state at `{ time }`.
-    pub fn forecast(&mut self, numbers: &[f64], text: &str) -> Result<Option<Vec<f64>>> {
-        let value = tree::read(numbers, text)?;
+    pub fn forecast(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let time = node.fields(&["time"])?.required("time")?.number()?;
         Ok(self.predictor.forecast(time)?.map(flat))
     }
 
     /// The expected positions for `{ id, times }`.
-    pub fn path(&mut self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
-        let value = tree::read(numbers, text)?;
+    pub fn path(&mut self, value: JsValue) -> Result<Vec<f64>> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["id", "times"])?;
         let id = fields.required("id")?.text()?;
@@ -150,16 +150,16 @@ impl Engine {
     }
 
     /// Adds `{ destination }`.
-    pub fn add_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn add_destination(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let destination = node.fields(&["destination"])?.required("destination")?.value();
         Ok(self.predictor.add_destination(destination)?)
     }
 
     /// Replaces `{ id, destination }`.
-    pub fn update_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn update_destination(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["id", "destination"])?;
         let id = fields.required("id")?.text()?;
@@ -167,15 +167,15 @@ impl Engine {
     }
 
     /// Removes `{ id }`.
-    pub fn remove_destination(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn remove_destination(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         Ok(self.predictor.remove_destination(node.fields(&["id"])?.required("id")?.text()?)?)
     }
 
     /// Sets all `{ destinations }`.
-    pub fn set_destinations(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn set_destinations(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let destinations = node.fields(&["destinations"])?.required("destinations")?.value();
         Ok(self.predictor.set_destinations(destinations)?)

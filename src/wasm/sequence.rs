@@ -1,9 +1,10 @@
 //! What `js/sequence.ts` stands on.
 
-use super::{Result, flat, tree};
+use super::{Result, data, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
 use crate::value::Node;
 use nalgebra::DMatrix;
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// What a JavaScript `ConditionallyMarkovSequence` holds.
@@ -17,13 +18,13 @@ pub struct SequenceEngine {
 impl SequenceEngine {
     /// A sequence induced by a Markov model.
     #[wasm_bindgen(constructor)]
-    pub fn new(numbers: &[f64], text: &str) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::new(&tree::read(numbers, text)?)? })
+    pub fn new(value: JsValue) -> Result<SequenceEngine> {
+        Ok(Self { sequence: ConditionallyMarkovSequence::new(&data::read(value)?)? })
     }
 
     /// A sequence given matrix by matrix.
-    pub fn from_parameters(numbers: &[f64], text: &str) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&tree::read(numbers, text)?)? })
+    pub fn from_parameters(value: JsValue) -> Result<SequenceEngine> {
+        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&data::read(value)?)? })
     }
 
     /// The number of components of one state.
@@ -37,8 +38,8 @@ impl SequenceEngine {
     }
 
     /// The model of `{ step }`: previous, destination and covariance row by row, and behind them the offset.
-    pub fn model(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
-        let model = self.sequence.model(step(numbers, text)?)?;
+    pub fn model(&self, value: JsValue) -> Result<Vec<f64>> {
+        let model = self.sequence.model(step(value)?)?;
         let mut flat = Vec::new();
         for matrix in [&model.previous, &model.destination, &model.covariance] {
             flat.extend(DMatrix::transpose(matrix).iter());
@@ -48,8 +49,8 @@ impl SequenceEngine {
     }
 
     /// Takes in `{ step, position }`.
-    pub fn measure(&mut self, numbers: &[f64], text: &str) -> Result<()> {
-        let value = tree::read(numbers, text)?;
+    pub fn measure(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["step", "position"])?;
         let step = fields.required("step")?.whole(0, u32::MAX as usize)?;
@@ -57,8 +58,8 @@ impl SequenceEngine {
     }
 
     /// The state at `{ step }`.
-    pub fn state(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
-        Ok(flat(self.sequence.state(step(numbers, text)?)?))
+    pub fn state(&self, value: JsValue) -> Result<Vec<f64>> {
+        Ok(flat(self.sequence.state(step(value)?)?))
     }
 
     /// The state at the end.
@@ -72,8 +73,8 @@ impl SequenceEngine {
     }
 
     /// `{ seed, count }` whole sequences, one behind the other.
-    pub fn sample(&self, numbers: &[f64], text: &str) -> Result<Vec<f64>> {
-        let value = tree::read(numbers, text)?;
+    pub fn sample(&self, value: JsValue) -> Result<Vec<f64>> {
+        let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["seed", "count"])?;
         let seed = fields.required("seed")?.whole(0, u32::MAX as usize)?;
@@ -82,24 +83,24 @@ impl SequenceEngine {
     }
 
     /// Whether it is reciprocal to `{ tolerance? }`.
-    pub fn is_reciprocal(&self, numbers: &[f64], text: &str) -> Result<bool> {
-        Ok(self.sequence.is_reciprocal(tolerance(numbers, text)?)?)
+    pub fn is_reciprocal(&self, value: JsValue) -> Result<bool> {
+        Ok(self.sequence.is_reciprocal(tolerance(value)?)?)
     }
 
     /// Whether it is Markov to `{ tolerance? }`.
-    pub fn is_markov(&self, numbers: &[f64], text: &str) -> Result<bool> {
-        Ok(self.sequence.is_markov(tolerance(numbers, text)?)?)
+    pub fn is_markov(&self, value: JsValue) -> Result<bool> {
+        Ok(self.sequence.is_markov(tolerance(value)?)?)
     }
 }
 
-fn step(numbers: &[f64], text: &str) -> crate::Result<usize> {
-    let value = tree::read(numbers, text)?;
+fn step(value: JsValue) -> crate::Result<usize> {
+    let value = data::read(value)?;
     let node = Node::root(&value, "");
     node.fields(&["step"])?.required("step")?.whole(0, u32::MAX as usize)
 }
 
-fn tolerance(numbers: &[f64], text: &str) -> crate::Result<f64> {
-    let value = tree::read(numbers, text)?;
+fn tolerance(value: JsValue) -> crate::Result<f64> {
+    let value = data::read(value)?;
     let node = Node::root(&value, "");
     node.fields(&["tolerance"])?.optional("tolerance").map_or(Ok(DEFAULT_TOLERANCE), |tolerance| tolerance.number())
 }
