@@ -115,6 +115,7 @@ pub mod predictor;
 
 pub mod pointer;
 pub mod snapshot;
+pub mod study;
 
 pub use conditionally_markov::ConditionallyMarkovSequence;
 pub use error::{Code, Error, Result};

@@ -1,0 +1,153 @@
+//! Scores predictors on recorded movements, side by side: `npm run evaluate -- FILE...`.
+//!
+//! A file has one track a line, `{"id", "user", "targets": [[x, y, w, h], ...], "target": k, "samples": [[t, x, y], ...]}`
+//! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`. What is told, on the approach up to
+//! the last entry into the true target: the share of the time with the true target on top, accuracy on the way, mean log
+//! loss, expected calibration error, lead time; with an interval by drawing users.
+
+mod chart;
+mod foresight;
+mod methods;
+mod peers;
+mod reading;
+mod report;
+
+use clap::Parser;
+use foresight::Foresight;
+use indicatif::{ProgressBar, ProgressStyle};
+use methods::{Method, Template};
+use peers::Peer;
+use rayon::prelude::*;
+use report::{Results, Set};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Scores predictors on recorded movements.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// Files of tracks, one JSON object a line.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Files of scenarios of your own, {"name", "scenario", "destination"?}: the scenario without its destinations, and
+    /// keys that each of them gets. Where examples/evaluate/scenarios has one of the same name as a track file, it is used.
+    #[arg(long)]
+    scenario: Vec<PathBuf>,
+    /// Leave the other predictors out.
+    #[arg(long)]
+    ours: bool,
+    /// A table by user, too.
+    #[arg(long)]
+    users: bool,
+    /// Added to the size of every target, for a cursor that has a size itself.
+    #[arg(long, default_value_t = 0.0)]
+    margin: f64,
+    /// Only every n-th sample.
+    #[arg(long, default_value_t = 1)]
+    every: usize,
+    /// Where to write the report as JSON.
+    #[arg(long, default_value = "target/evaluate/report.json")]
+    json: PathBuf,
+    /// Where to write the charts, one SVG for each set: accuracy over the course of the movement, and calibration.
+    #[arg(long, default_value = "target/evaluate")]
+    charts: PathBuf,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    if arguments.every == 0 {
+        return Err("--every must be at least 1".to_owned());
+    }
+    let mut results = Results::default();
+    let mut skipped = 0;
+    for file in &arguments.files {
+        let methods = methods_for(arguments, file)?;
+        skipped += evaluate(arguments, file, &methods, &mut results)?;
+    }
+    if results.sets.is_empty() {
+        return Err("no track enters its target: nothing to score".to_owned());
+    }
+    results.print(arguments.users);
+    if skipped > 0 {
+        println!("{skipped} broken lines skipped, see above");
+    }
+    results.write_json(&arguments.json)?;
+    let charts = chart::write(&results, &arguments.charts)?;
+    println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
+    Ok(())
+}
+
+/// The methods for one file: its own scenario where there is one, else the pointer's; then those asked for; then peers.
+fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let own = file.file_stem().map(|stem| folder.join(stem).with_extension("json")).filter(|path| path.exists());
+    let mut methods = match own {
+        Some(path) => vec![Method::ours(Template::read(&path)?)],
+        None => vec![Method::ours(Template::pointer()?), Method::ours(Template::constant_velocity()?)],
+    };
+    for path in &arguments.scenario {
+        methods.push(Method::ours(Template::read(path)?));
+    }
+    if !arguments.ours {
+        methods.extend(Peer::all().into_iter().map(Method::peer));
+        match Foresight::start() {
+            Ok(foresight) => methods.push(Method::foresight(foresight)),
+            Err(reason) => eprintln!("ForesightJS is left out: {reason}"),
+        }
+    }
+    Ok(methods)
+}
+
+fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], results: &mut Results) -> Result<usize, String> {
+    let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let size = std::fs::metadata(file).map_err(|error| format!("{}: {error}", file.display()))?.len();
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}");
+    let bar = ProgressBar::new(size).with_style(style.map_err(|error| error.to_string())?).with_message(name.clone());
+    let mut skipped = 0;
+    let mut sets: Vec<Set> = Vec::new();
+    reading::in_batches(file, |lines, bytes| {
+        let scored: Vec<_> = lines.par_iter().map(|line| score(arguments, line, methods)).collect();
+        for (line, scored) in lines.iter().zip(scored) {
+            match scored {
+                Ok(Some((part, user, scores))) => report::add(&mut sets, &name, part, methods, &user, &scores),
+                Ok(None) => {}
+                Err(message) => {
+                    skipped += 1;
+                    bar.suspend(|| eprintln!("{}:{}: {message}; skipped", file.display(), line.number));
+                }
+            }
+        }
+        bar.set_position(bytes);
+        Ok(())
+    })?;
+    bar.finish_and_clear();
+    results.sets.extend(sets);
+    Ok(skipped)
+}
+
+type Scored = (&'static str, String, Vec<Option<whither::study::metrics::Score>>);
+
+fn score(arguments: &Arguments, line: &reading::Line, methods: &[Method]) -> Result<Option<Scored>, String> {
+    let mut track = line.track()?;
+    for target in &mut track.targets {
+        target.size.iter_mut().for_each(|side| *side += arguments.margin);
+    }
+    let Some(mut approach) = track.approach() else { return Ok(None) };
+    if arguments.every > 1 {
+        let last = approach - 1;
+        let mut kept: Vec<_> = track.samples[..last].iter().step_by(arguments.every).cloned().collect();
+        kept.push(track.samples[last].clone());
+        track.samples = kept;
+        approach = track.samples.len();
+    }
+    let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Some((reading::part(&track), track.user, scores)))
+}
