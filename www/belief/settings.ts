@@ -57,10 +57,9 @@ export function scenarioOf(targets: readonly PointerTarget[], settings: Settings
 }
 
 function pointing(targets: readonly PointerTarget[], points: number, factor: number): Scenario {
-  const scenario = pointerScenario(targets);
+  const scenario = pointerScenario(targets, { none: NONE });
   return {
     ...scenario,
-    none: NONE,
     motion: louder(scenario.motion, factor),
     pointing: scenario.pointing && {
       ...scenario.pointing,

@@ -22,10 +22,6 @@ export class History {
     const first = this.moments[0];
     if (first && time - first.time > LONGEST) this.moments.shift();
   }
-
-  get start(): number {
-    return this.moments[0]?.time ?? 0;
-  }
 }
 
 /** The first of the largest. */

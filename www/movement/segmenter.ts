@@ -8,7 +8,7 @@ export interface Sample {
 }
 
 /** A pointer that stays put this long, or is not heard of, has ended its movement (seconds). */
-export const REST = 0.12;
+const REST = 0.12;
 
 /** A hand at rest trembles this much (px). */
 const TREMOR = 3;
@@ -36,10 +36,6 @@ export class Segmenter {
   /** While resting: what was heard since the rest, in case it turns out to be the onset. */
   #onset: Sample[] = [];
 
-  get moving(): boolean {
-    return this.#moving;
-  }
-
   add(sample: Sample): Cut {
     const last = this.#last;
     if (last && repeats(sample, last)) return NOTHING;
@@ -51,11 +47,6 @@ export class Segmenter {
   /** A press, a lost pointer: whatever comes next is a new movement. */
   end(): void {
     if (this.#last) this.#rest(this.#last);
-  }
-
-  /** Whether nothing has been heard for so long that the movement is over. */
-  restsAt(time: number): boolean {
-    return this.#last !== null && time - this.#last.time > REST;
   }
 
   #rest(at: Sample): void {
