@@ -18,4 +18,4 @@ export {
 } from "./predictor.js";
 export type * from "./scenario.js";
 export { ConditionallyMarkovSequence, type GivenSequence, type SequenceParameters, type StepModel } from "./sequence.js";
-export type { CompiledModule, ResponseLike, UrlLike, WasmSource } from "./source.js";
+export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "./source.js";

@@ -305,7 +305,7 @@ export class Predictor {
   }
 
   /**
-   * The predictor that {@link snapshot} was taken of. What follows is identical to the bit.
+   * The predictor that {@link Predictor.snapshot} was taken of. What follows is identical to the bit.
    *
    * @throws {@link WhitherError} `bad-snapshot` where it is damaged or from another version.
    */

@@ -15,6 +15,7 @@ export interface ResponseLike {
   readonly ok: boolean;
   readonly status: number;
   readonly url: string;
+  /** The bytes of the answer. */
   arrayBuffer(): Promise<ArrayBuffer>;
 }
 
@@ -25,10 +26,12 @@ export interface UrlLike {
 
 /**
  * Where the WebAssembly comes from: an address (as a string or a `URL`), a `Response`, its bytes (an `ArrayBuffer` or a
- * view of one), a compiled `WebAssembly.Module`, or a promise of any of these.
+ * view of one), or a compiled `WebAssembly.Module`.
  */
-export type WasmSource = Resolved | PromiseLike<Resolved>;
-type Resolved = string | UrlLike | ResponseLike | ArrayBuffer | ArrayBufferView | CompiledModule;
+export type WasmLocation = string | UrlLike | ResponseLike | ArrayBuffer | ArrayBufferView | CompiledModule;
+
+/** Where the WebAssembly comes from, or a promise of it. */
+export type WasmSource = WasmLocation | PromiseLike<WasmLocation>;
 
 /**
  * The compiled module.
@@ -38,7 +41,7 @@ type Resolved = string | UrlLike | ResponseLike | ArrayBuffer | ArrayBufferView 
  */
 export async function compiled(source: WasmSource): Promise<WebAssembly.Module> {
   if (typeof WebAssembly !== "object") throw unavailable("WebAssembly does not exist here");
-  let given: Resolved;
+  let given: WasmLocation;
   try {
     given = await source;
   } catch (error) {
@@ -69,7 +72,7 @@ async function compile(bytes: BufferSource): Promise<WebAssembly.Module> {
   }
 }
 
-async function bytesOf(source: Resolved): Promise<BufferSource> {
+async function bytesOf(source: WasmLocation): Promise<BufferSource> {
   if (isBytes(source)) return checked(source, "the given bytes");
   if (isResponse(source)) return answered(source, source.url || "the given response");
   const address = typeof source === "string" ? source : (source as Partial<UrlLike> | null | undefined)?.href;
