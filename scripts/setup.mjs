@@ -33,7 +33,7 @@ async function ensureRust() {
 }
 
 async function ensurePackages() {
-  const places = { inputs: ["package.json", "package-lock.json"], outputs: ["node_modules/.package-lock.json"] };
+  const places = { inputs: ["package-lock.json"], outputs: ["node_modules/.package-lock.json"] };
   await incremental("node_modules", places, () =>
     run("npm", ["ci", "--no-audit", "--no-fund", "--loglevel=error"], { cwd: root }),
   );
