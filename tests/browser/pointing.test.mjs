@@ -102,6 +102,26 @@ describe("pointing", () => {
     assert.deepEqual(sins, []);
   });
 
+  it("learns from every sample once, also when the browser hands over many at a time", async () => {
+    const { page } = opened;
+    const hand = await mouse(page);
+    const icons = await middles(page);
+    const from = icons.find((icon) => icon.id === "help");
+    const to = icons.find((icon) => icon.id === "media");
+    const samples = movement(from, to, to.width, { seed: 11, share: 0.6 });
+    const shown = [];
+    for (const late of [0, 1]) {
+      await hand.play([[0, from.x, from.y]]);
+      await hand.rest(0.2 + late);
+      // A second late, all of them are sent at once, and arrive as the coalesced samples of a few events.
+      await hand.play(samples, Date.now() / 1000 - late);
+      shown.push(await read(page));
+    }
+    for (const [index, icon] of shown[0].icons.entries()) {
+      assert.ok(Math.abs(icon.probability - shown[1].icons[index].probability) < 0.02, `${icon.id}: ${icon.probability}, ${shown[1].icons[index].probability}`);
+    }
+  });
+
   it("starts afresh after a rest", async () => {
     const { page } = opened;
     const hand = await mouse(page);
