@@ -22,9 +22,24 @@ pub fn scenario_of(case: &Json, method: &str) -> Json {
     scenario
 }
 
-/// A value of ours from JSON.
+/// A value of ours from JSON, with the numbers that JSON cannot say.
 pub fn value(json: &Json) -> Value {
-    serde_json::from_value(json.clone()).unwrap()
+    fn named(value: &mut Value) {
+        match value {
+            Value::Text(text) => match text.as_str() {
+                "NaN" => *value = Value::Number(f64::NAN),
+                "Infinity" => *value = Value::Number(f64::INFINITY),
+                "-Infinity" => *value = Value::Number(f64::NEG_INFINITY),
+                _ => {}
+            },
+            Value::List(items) => items.iter_mut().for_each(named),
+            Value::Map(entries) => entries.iter_mut().for_each(|(_, item)| named(item)),
+            _ => {}
+        }
+    }
+    let mut value = serde_json::from_value(json.clone()).unwrap();
+    named(&mut value);
+    value
 }
 
 /// A predictor from JSON.
@@ -42,4 +57,34 @@ pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let difference = |(f, e): (&f64, &f64)| if f == e { 0.0 } else { (f - e).abs() / (1.0 + e.abs()) };
     found.iter().zip(expected).map(difference).fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+}
+
+/// A scenario with changes: JSON pointers and what is put there (null takes a key away). In what is put, `"NaN"`,
+/// `"Infinity"` and `"-Infinity"` become numbers in [`value`], and `["*1002", x]` is a list of so many `x`.
+pub fn change(scenario: &Json, changes: &Json) -> Json {
+    let mut changed = scenario.clone();
+    for (pointer, put) in changes.as_object().unwrap() {
+        let Some((parent, key)) = pointer.rsplit_once('/') else { return put.clone() };
+        match changed.pointer_mut(parent).unwrap() {
+            Json::Array(items) => items[key.parse::<usize>().unwrap()] = repeated(put),
+            Json::Object(entries) => {
+                entries.insert(key.to_owned(), repeated(put));
+            }
+            other => panic!("nothing has a key in {other}"),
+        }
+    }
+    changed
+}
+
+fn repeated(json: &Json) -> Json {
+    match json {
+        Json::Array(items) => match items.as_slice() {
+            [Json::String(count), item] if count.starts_with('*') => {
+                Json::Array(vec![item.clone(); count[1..].parse().unwrap()])
+            }
+            _ => Json::Array(items.iter().map(repeated).collect()),
+        },
+        Json::Object(entries) => entries.iter().map(|(key, item)| (key.clone(), repeated(item))).collect(),
+        other => other.clone(),
+    }
 }
