@@ -3,6 +3,7 @@
 
 mod errors;
 mod golden;
+mod life;
 mod pointing;
 mod sequences;
 mod support;
