@@ -108,15 +108,26 @@ describe("pointing", () => {
     const icons = await middles(page);
     const from = icons.find((icon) => icon.id === "help");
     const to = icons.find((icon) => icon.id === "media");
-    const samples = movement(from, to, to.width, { seed: 11, share: 0.6 });
+    const samples = movement(from, to, to.width, { seed: 11, share: 0.8 });
+    await page.evaluate(() => {
+      window.most = 0;
+      addEventListener("pointermove", (event) => (window.most = Math.max(window.most, event.getCoalescedEvents().length)));
+    });
     const shown = [];
-    for (const late of [0, 1]) {
+    const most = [];
+    for (const busy of [false, true]) {
       await hand.play([[0, from.x, from.y]]);
-      await hand.rest(0.2 + late);
-      // A second late, all of them are sent at once, and arrive as the coalesced samples of a few events.
-      await hand.play(samples, Date.now() / 1000 - late);
+      await hand.rest(0.2);
+      // A page that has no time for events finds them all in one afterwards.
+      const work = page.evaluate((until) => {
+        while (Date.now() < until);
+      }, busy ? Date.now() + 1000 : 0);
+      await Promise.all([work, hand.play(samples)]);
       shown.push(await read(page));
+      most.push(await page.evaluate(() => window.most));
     }
+    assert.equal(shown[1].top.id, "media");
+    assert.ok(most[1] > 20, `at most ${most[1]} samples came at once`);
     for (const [index, icon] of shown[0].icons.entries()) {
       assert.ok(Math.abs(icon.probability - shown[1].icons[index].probability) < 0.02, `${icon.id}: ${icon.probability}, ${shown[1].icons[index].probability}`);
     }
