@@ -29,6 +29,9 @@ interface Track {
   latest: number | null;
 }
 
+/** The history is no coarser than this, however seldom the page is drawn (seconds). */
+const RESOLUTION = 0.016;
+
 const START = "Move towards an icon.";
 
 /** The ghost is a pointer like any other; real ones have identifiers from 0. */
@@ -68,6 +71,7 @@ export class Demonstration {
       this.#predictions.observe(pointerId, cut.samples);
       track.latest = sample.time;
       this.#shown = pointerId;
+      if (sample.time - (track.history.moments.at(-1)?.time ?? -Infinity) >= RESOLUTION) this.#record(pointerId, track);
     }
     if (track.latest !== null) this.#frame ??= requestAnimationFrame(() => this.#draw());
   }
