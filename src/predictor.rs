@@ -90,8 +90,13 @@ impl Predictor {
     /// `time-not-increasing`, `wrong-length`, `not-finite`; `out-of-range` for a position beyond 1e50 or a time more than
     /// 1e12 s after the first; nothing has changed then.
     pub fn observe(&mut self, time: f64, position: &[f64]) -> Result<()> {
-        let position: Vec<Option<f64>> = position.iter().map(|&x| Some(x)).collect();
-        self.observe_with(time, &position, None)
+        if let Some(all) = position.first_chunk::<3>().filter(|_| position.len() == 3) {
+            self.observe_with(time, &all.map(Some), None)
+        } else if let Some(both) = position.first_chunk::<2>().filter(|_| position.len() == 2) {
+            self.observe_with(time, &both.map(Some), None)
+        } else {
+            self.observe_with(time, &position.iter().map(|&x| Some(x)).collect::<Vec<_>>(), None)
+        }
     }
 
     /// As [`Predictor::observe`]; none marks a missing axis, and `noise` (a deviation, one for each axis, or a covariance)
@@ -103,9 +108,8 @@ impl Predictor {
         check_time("time", time)?;
         let model = &self.scenario.observation;
         let noise = noise.map(|noise| model.read_noise(&Node::root(noise, "noise"))).transpose()?;
-        let measurement = model.measurement(position, noise.as_ref())?;
-        let noise = noise.as_ref().unwrap_or_else(|| model.noise());
-        let observed = Observed { time, position, measurement: &measurement, noise };
+        model.check(position)?;
+        let observed = Observed { time, position, noise: noise.as_ref().unwrap_or_else(|| model.noise()) };
         let Some(track) = &mut self.track else {
             self.track = Some(Track::begin(&self.scenario, &self.destinations, &observed)?);
             self.stale = true;
@@ -124,7 +128,7 @@ impl Predictor {
             );
             return Err(Error::new(Code::OutOfRange, "time", message));
         }
-        track.advance(&self.destinations, &observed)?;
+        track.advance(&self.scenario, &self.destinations, &observed)?;
         self.stale |= !track.expired();
         Ok(())
     }
@@ -213,6 +217,9 @@ impl Predictor {
     /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates.
     pub fn log_likelihoods(&mut self) -> &[f64] {
         self.refresh();
+        if let Some(track) = &mut self.track {
+            track.log_likelihoods(&mut self.posterior);
+        }
         &self.posterior.log_likelihoods
     }
 
@@ -230,8 +237,8 @@ impl Predictor {
     pub fn arrival(&mut self, id: Option<&str>) -> Result<Option<Arrival>> {
         let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
         self.refresh();
-        let Some(track) = &self.track else { return Ok(None) };
-        let arrival = track.arrival(&self.posterior, &self.destinations, only);
+        let Some(track) = &mut self.track else { return Ok(None) };
+        let arrival = track.arrival(&self.scenario, &mut self.posterior, &self.destinations, only);
         let Some(mut arrival) = arrival else { return Ok(None) };
         arrival.times.iter_mut().for_each(|t| *t += track.first_time);
         arrival.mean += track.first_time;
@@ -242,7 +249,7 @@ impl Predictor {
     /// after every node has passed.
     pub fn remaining(&mut self) -> Option<Remaining> {
         self.refresh();
-        self.track.as_ref()?.remaining(&self.posterior, &self.destinations)
+        self.track.as_mut()?.remaining(&self.scenario, &mut self.posterior, &self.destinations)
     }
 
     /// The state now, given that the object is going to one of the destinations; none before the first observation.
@@ -253,7 +260,7 @@ impl Predictor {
     /// The state at the first observation given all of them, `p(x_1 | y_1:k)`; none before the first observation.
     pub fn initial_state(&mut self) -> Option<Gaussian> {
         self.refresh();
-        self.track.as_ref()?.initial_state(&self.posterior, &self.destinations)
+        self.track.as_mut()?.initial_state(&self.scenario, &mut self.posterior, &self.destinations)
     }
 
     /// The state at `time`, which is the last observation's or later; none before the first observation.
@@ -301,7 +308,7 @@ impl Predictor {
 
     fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
         self.refresh();
-        self.track.as_ref()?.state(&self.posterior, &self.destinations, later, only)
+        self.track.as_mut()?.state(&self.scenario, &mut self.posterior, &self.destinations, later, only)
     }
 
     /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.

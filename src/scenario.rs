@@ -237,7 +237,8 @@ impl Engine {
     }
 
     /// The arrival nodes of destinations, where a method of the papers needs them.
-    pub(crate) fn plan(&self, destinations: &Destinations, start: &[f64]) -> Option<Plan> {
+    #[must_use]
+    pub fn plan(&self, destinations: &Destinations, start: &[f64]) -> Option<Plan> {
         match self {
             Self::Papers { arrival, quadrature, .. } => Some(Plan::new(destinations, arrival, quadrature, start)),
             Self::Pointing(_) => None,

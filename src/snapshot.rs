@@ -27,7 +27,7 @@ impl Predictor {
     /// ```
     #[must_use]
     pub fn snapshot(&self) -> Value {
-        let track = self.track.as_ref().map_or(Value::Null, Track::save);
+        let track = self.track.as_ref().map_or(Value::Null, |track| track.save(&self.scenario, &self.destinations));
         let body = Value::map([("scenario", self.scenario.to_value_with(&self.destinations)), ("track", track)]);
         let seal = seal(&body);
         Value::map([

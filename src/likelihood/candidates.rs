@@ -107,13 +107,8 @@ impl Movement {
                 offsets: &offsets(&transition, destinations, predicted.means.ncols()),
                 noise: &transition.noise,
             });
-            let mut corrected = predicted.clone();
-            if corrected.correct(measurement) && corrected.is_finite() {
-                Ok((transition, predicted, corrected))
-            } else {
-                let message = "leads to a state that is not finite: the motion model explodes over this time";
-                Err(Error::new(Code::OutOfRange, "time", message))
-            }
+            let corrected = correct(predicted.clone(), measurement)?;
+            Ok((transition, predicted, corrected))
         });
         let steps = steps.collect::<Result<Vec<_>>>()?;
         let elapsed_before = std::mem::replace(&mut self.elapsed, elapsed);
@@ -252,6 +247,32 @@ impl Movement {
         })?;
         Ok(movement)
     }
+}
+
+/// One step of a filter whose motion model does not know the destination.
+///
+/// # Errors
+/// As [`Movement::advance`].
+pub fn advance_filter(
+    filter: &Filter,
+    model: &dyn MotionModel,
+    step: f64,
+    measurement: &Measurement,
+) -> Result<Filter> {
+    let transition = model.transition(step);
+    let offsets = DMatrix::from_column_slice(transition.offset.len(), 1, transition.offset.as_slice());
+    let mut filter = filter.clone();
+    let (transition, noise) = (&transition.transition, &transition.noise);
+    filter.predict(&TimeUpdate { transition, offsets: &offsets, noise });
+    correct(filter, measurement)
+}
+
+fn correct(mut filter: Filter, measurement: &Measurement) -> Result<Filter> {
+    if filter.correct(measurement) && filter.is_finite() {
+        return Ok(filter);
+    }
+    let message = "leads to a state that is not finite: the motion model explodes over this time";
+    Err(Error::new(Code::OutOfRange, "time", message))
 }
 
 /// `M(h)` for every column of means.

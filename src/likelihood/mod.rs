@@ -19,6 +19,7 @@ pub mod plan;
 pub mod pointing;
 pub mod pseudo_observation;
 pub mod single_filter;
+pub mod telescoped;
 
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;

@@ -84,6 +84,12 @@ impl Plan {
         &self.grids[self.grid_of[i] as usize]
     }
 
+    /// Whether the times of `grid` count from now.
+    #[must_use]
+    pub fn is_horizon(&self, grid: usize) -> bool {
+        self.horizons[grid]
+    }
+
     /// The time from `elapsed` until a node of `grid`; zero or less where it has passed.
     #[must_use]
     pub fn remaining(&self, grid: usize, time: f64, elapsed: f64) -> f64 {

@@ -231,11 +231,15 @@ pub fn weigh<const D: usize, T: Term<D>>(
     priors: &[Block],
     weights: &mut [Block],
 ) -> f64 {
+    let Some((first, others)) = terms.split_first() else {
+        weights.fill([0.0; WIDTH]);
+        return 0.0;
+    };
     let shift = Shift::by(shift);
     let mut total = Lanes::splat(0.0);
     for (i, (prior, weight)) in priors.iter().zip(weights).enumerate() {
-        let (Some(place), Some(mut term)) = (T::place(places, i), terms.first()) else { break };
-        let mut rest = terms[1..].iter();
+        let Some(place) = T::place(places, i) else { break };
+        let (mut term, mut rest) = (first, others.iter());
         let mut sum = Lanes::splat(0.0);
         // the test stands at the end, because engines compile a loop the better for it, by a third
         loop {
@@ -256,9 +260,10 @@ pub fn weigh<const D: usize, T: Term<D>>(
 /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
 #[inline(never)]
 pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, logs: &mut [Block]) {
+    let Some(first) = terms.first() else { return logs.fill([f64::NEG_INFINITY; WIDTH]) };
     let none = Shift::by(0.0);
     for (i, log) in logs.iter_mut().enumerate() {
-        let (Some(place), Some(first)) = (T::place(places, i), terms.first()) else { break };
+        let Some(place) = T::place(places, i) else { break };
         let mut top = first.exponent(&place);
         for term in terms {
             top = term.exponent(&place).at_least(top);

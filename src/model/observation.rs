@@ -62,11 +62,11 @@ impl ObservationModel {
         &self.noise
     }
 
-    /// An observation as a measurement: none marks a missing axis, `noise` replaces `V` for this one.
+    /// Whether this can be an observation; none marks a missing axis.
     ///
     /// # Errors
     /// `wrong-length`, `not-finite`, `out-of-range`.
-    pub fn measurement(&self, position: &[Option<f64>], noise: Option<&DMatrix<f64>>) -> Result<Measurement> {
+    pub fn check(&self, position: &[Option<f64>]) -> Result<()> {
         let axes = self.axes();
         if position.len() != axes {
             let message = format!("must have {axes} numbers, has {}", position.len());
@@ -79,6 +79,15 @@ impl ObservationModel {
                 Node::root(&Value::Number(*y), &format!("position[{i}]")).number()?;
             }
         }
+        Ok(())
+    }
+
+    /// An observation as a measurement: none marks a missing axis, `noise` replaces `V` for this one.
+    ///
+    /// # Errors
+    /// As [`ObservationModel::check`].
+    pub fn measurement(&self, position: &[Option<f64>], noise: Option<&DMatrix<f64>>) -> Result<Measurement> {
+        self.check(position)?;
         let (rows, values): (Vec<usize>, Vec<f64>) =
             position.iter().enumerate().filter_map(|(i, y)| y.map(|y| (i, y))).unzip();
         let covariance = noise.unwrap_or(&self.noise);

@@ -36,7 +36,8 @@ impl Posterior {
         self.believe_prior(destinations, none);
     }
 
-    fn believe_prior(&mut self, destinations: &Destinations, none: f64) {
+    /// What is believed where no destination can be reached, so that every likelihood is zero.
+    pub fn believe_prior(&mut self, destinations: &Destinations, none: f64) {
         let total: f64 = destinations.priors().iter().sum();
         self.probabilities.clear();
         self.probabilities.extend(destinations.priors().iter().map(|prior| (1.0 - none) * prior / total));
@@ -46,17 +47,7 @@ impl Posterior {
     /// Liang (3) and (6) for a movement so far. Where no destination can be reached, so that every likelihood is zero, the
     /// probabilities are the priors.
     pub fn update(&mut self, movement: &Movement, destinations: &Destinations, none: f64) {
-        movement.joint(destinations, &mut self.joint);
-        let plan = &movement.plan;
-        let mut terms = Vec::new();
-        self.log_likelihoods.clear();
-        for i in 0..destinations.len() {
-            terms.clear();
-            for table in &self.joint {
-                terms.extend_from_slice(&table[plan.rows[i]..plan.rows[i + 1]]);
-            }
-            self.log_likelihoods.push(log_sum_exp(&terms));
-        }
+        self.weigh_nodes(movement, destinations);
         let priors = destinations.priors();
         let total: f64 = priors.iter().sum();
         let weigh = |(l, prior): (&f64, &f64)| l + ((1.0 - none) * prior / total).ln();
@@ -73,6 +64,21 @@ impl Posterior {
         let sum = self.probabilities.iter().sum::<f64>() + self.none;
         self.probabilities.iter_mut().for_each(|p| *p /= sum);
         self.none /= sum;
+    }
+
+    /// The likelihoods of all nodes, and of the destinations.
+    pub fn weigh_nodes(&mut self, movement: &Movement, destinations: &Destinations) {
+        movement.joint(destinations, &mut self.joint);
+        let plan = &movement.plan;
+        let mut terms = Vec::new();
+        self.log_likelihoods.clear();
+        for i in 0..destinations.len() {
+            terms.clear();
+            for table in &self.joint {
+                terms.extend_from_slice(&table[plan.rows[i]..plan.rows[i + 1]]);
+            }
+            self.log_likelihoods.push(log_sum_exp(&terms));
+        }
     }
 
     /// The index of the most probable destination, the first of equals.

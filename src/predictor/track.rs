@@ -2,12 +2,13 @@
 
 use super::Remaining;
 use crate::error::{Code, Error, Result};
+use crate::likelihood::Method;
 use crate::likelihood::candidates::Movement;
 use crate::likelihood::plan::Plan;
 use crate::likelihood::pointing::course::Course;
 use crate::likelihood::pointing::{Pointing, parameters::axis_variances};
+use crate::likelihood::telescoped::Telescoped;
 use crate::math::gaussian::Gaussian;
-use crate::math::kalman::Measurement;
 use crate::model::destination::Destinations;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
@@ -35,6 +36,14 @@ enum Followed {
         /// The movement before every node had passed: what the probabilities stay at.
         frozen: Option<Box<Movement>>,
     },
+    /// `pseudoObservation` where the motion model does not know the destination.
+    Telescoped {
+        now: Box<Telescoped>,
+        /// As it was before every node had passed.
+        before: Option<Box<Telescoped>>,
+        /// The same densely, once something has been asked that the probabilities do not say.
+        dense: Option<Box<(Movement, Option<Movement>)>>,
+    },
     Pointing(Box<Pointing>),
 }
 
@@ -42,21 +51,42 @@ enum Followed {
 pub(super) struct Observed<'a> {
     pub time: f64,
     pub position: &'a [Option<f64>],
-    pub measurement: &'a Measurement,
     /// The covariance of all axes, those that are missing too.
     pub noise: &'a DMatrix<f64>,
+}
+
+impl Observed<'_> {
+    /// The variances in each axis, where the noise of each is its own.
+    fn variances(&self) -> Option<[f64; 3]> {
+        let n = self.noise.nrows();
+        let own = n <= 3 && (0..n).all(|i| (0..i).all(|j| self.noise[(i, j)] == 0.0));
+        own.then(|| std::array::from_fn(|k| if k < n { self.noise[(k, k)] } else { 0.0 }))
+    }
+}
+
+/// Whether the likelihoods are those of the telescoped form.
+fn telescopes(scenario: &Scenario) -> bool {
+    let method = matches!(scenario.engine, Engine::Papers { method: Method::PseudoObservation, .. });
+    method && !scenario.motion.depends_on_destination()
 }
 
 impl Track {
     /// Begins at the first observation.
     pub(super) fn begin(scenario: &Scenario, destinations: &Destinations, observed: &Observed<'_>) -> Result<Self> {
-        let first = scenario.initial.posterior(&scenario.observation, observed.measurement)?;
+        let measurement = scenario.observation.measurement(observed.position, Some(observed.noise))?;
+        let first = scenario.initial.posterior(&scenario.observation, &measurement)?;
         let start = first.mean.as_slice()[..destinations.dimensions()].to_vec();
         let followed = match &scenario.engine {
             Engine::Papers { method, arrival, quadrature } => {
                 let plan = Plan::new(destinations, arrival, quadrature, &start);
-                let movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
-                Followed::Papers { movement, frozen: None }
+                if telescopes(scenario) {
+                    let separately = scenario.observation.is_position();
+                    let now = Telescoped::begin(&scenario.motion, destinations, &plan, &first, separately);
+                    Followed::Telescoped { now: Box::new(now), before: None, dense: None }
+                } else {
+                    let movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
+                    Followed::Papers { movement, frozen: None }
+                }
             }
             Engine::Pointing(parameters) => {
                 let variances = axis_variances(observed.noise, "noise")?;
@@ -70,26 +100,52 @@ impl Track {
     fn elapsed(&self) -> f64 {
         match &self.followed {
             Followed::Papers { movement, .. } => movement.elapsed,
+            Followed::Telescoped { now, .. } => now.elapsed(),
             Followed::Pointing(pointing) => pointing.course().elapsed,
         }
     }
 
     /// Whether every arrival node has passed.
     pub(super) const fn expired(&self) -> bool {
-        matches!(self.followed, Followed::Papers { frozen: Some(_), .. })
+        matches!(self.followed, Followed::Papers { frozen: Some(_), .. } | Followed::Telescoped { before: Some(_), .. })
     }
 
     /// Takes in one more observation.
-    pub(super) fn advance(&mut self, destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
+    pub(super) fn advance(
+        &mut self,
+        scenario: &Scenario,
+        destinations: &Destinations,
+        observed: &Observed<'_>,
+    ) -> Result<()> {
         let elapsed = observed.time - self.first_time;
+        let measurement = || scenario.observation.measurement(observed.position, Some(observed.noise));
         match &mut self.followed {
             Followed::Papers { movement, frozen } => {
                 let expires = frozen.is_none() && !movement.plan.is_alive(elapsed);
-                let before = expires.then(|| Box::new(movement.clone()));
-                movement.advance(destinations, elapsed, observed.measurement)?;
+                let last = expires.then(|| Box::new(movement.clone()));
+                movement.advance(destinations, elapsed, &measurement()?)?;
                 if expires {
-                    *frozen = before;
+                    *frozen = last;
                 }
+            }
+            Followed::Telescoped { now, before, dense } => {
+                let expires = before.is_none() && !now.is_alive(elapsed);
+                let last = expires.then(|| now.clone());
+                let separate = observed.variances().filter(|_| now.is_separable());
+                if let Some(variances) = separate {
+                    now.advance_separately(elapsed, observed.position, &variances);
+                } else {
+                    if now.is_separable()
+                        && let Some(plan) = scenario.engine.plan(destinations, &self.start)
+                    {
+                        now.couple(destinations, &plan);
+                    }
+                    now.advance(elapsed, &measurement()?)?;
+                }
+                if expires {
+                    *before = last;
+                }
+                *dense = None;
             }
             Followed::Pointing(pointing) => {
                 pointing.advance(elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
@@ -99,41 +155,85 @@ impl Track {
         Ok(())
     }
 
-    /// Brings the posterior up to date.
+    /// Brings the probabilities up to date.
     pub(super) fn update(&mut self, posterior: &mut Posterior, destinations: &Destinations, none: f64) {
         match &mut self.followed {
             Followed::Papers { movement, frozen } => {
                 posterior.update(frozen.as_deref().unwrap_or(movement), destinations, none);
             }
+            Followed::Telescoped { now, before, .. } => {
+                let believed = before.as_deref_mut().unwrap_or(now);
+                match believed.probabilities(none, &mut posterior.probabilities) {
+                    Some(none) => posterior.none = none,
+                    None => posterior.believe_prior(destinations, none),
+                }
+            }
             Followed::Pointing(pointing) => posterior.update_pointing(pointing, destinations, none),
+        }
+    }
+
+    /// Brings the log likelihoods up to date too.
+    pub(super) fn log_likelihoods(&mut self, posterior: &mut Posterior) {
+        if let Followed::Telescoped { now, before, .. } = &mut self.followed {
+            before.as_deref_mut().unwrap_or(now).log_likelihoods(&mut posterior.log_likelihoods);
+        }
+    }
+
+    /// The movement, and as it was before every node had passed, for what the probabilities do not say; the posterior then
+    /// holds the weights of all nodes.
+    fn dense(
+        &mut self,
+        scenario: &Scenario,
+        destinations: &Destinations,
+        posterior: &mut Posterior,
+    ) -> Option<(&Movement, &Movement)> {
+        match &mut self.followed {
+            Followed::Papers { movement, frozen } => Some((movement, frozen.as_deref().unwrap_or(movement))),
+            Followed::Telescoped { now, before, dense } => {
+                if dense.is_none() {
+                    let both = densely(now, before.as_deref(), scenario, destinations, &self.start)?;
+                    posterior.weigh_nodes(both.1.as_ref().unwrap_or(&both.0), destinations);
+                    *dense = Some(Box::new(both));
+                }
+                let (movement, before) = dense.as_deref()?;
+                Some((movement, before.as_ref().unwrap_or(movement)))
+            }
+            Followed::Pointing(_) => None,
         }
     }
 
     /// The posterior of the arrival time, in seconds since the first observation; none where nothing can be reached.
     pub(super) fn arrival(
-        &self,
-        posterior: &Posterior,
+        &mut self,
+        scenario: &Scenario,
+        posterior: &mut Posterior,
         destinations: &Destinations,
         only: Option<usize>,
     ) -> Option<Arrival> {
-        let shares = posterior.shares(destinations, only);
-        match &self.followed {
-            Followed::Papers { movement, frozen } => posterior.arrival(frozen.as_deref().unwrap_or(movement), &shares),
-            Followed::Pointing(pointing) => Some(pointing.arrival(destinations, &shares)),
+        if let Followed::Pointing(pointing) = &self.followed {
+            return Some(pointing.arrival(destinations, &posterior.shares(destinations, only)));
         }
+        let (_, believed) = self.dense(scenario, destinations, posterior)?;
+        posterior.arrival(believed, &posterior.shares(destinations, only))
     }
 
     /// The time to go; none before the second observation and after every node has passed.
-    pub(super) fn remaining(&self, posterior: &Posterior, destinations: &Destinations) -> Option<Remaining> {
+    pub(super) fn remaining(
+        &mut self,
+        scenario: &Scenario,
+        posterior: &mut Posterior,
+        destinations: &Destinations,
+    ) -> Option<Remaining> {
         let elapsed = self.elapsed();
         let observations = match &self.followed {
             Followed::Papers { movement, .. } => movement.observations,
+            Followed::Telescoped { now, .. } => now.observations(),
             Followed::Pointing(pointing) => pointing.course().observations,
         };
         if observations < 2 || self.expired() {
             return None;
         }
-        let arrival = self.arrival(posterior, destinations, None)?;
+        let arrival = self.arrival(scenario, posterior, destinations, None)?;
         Some(Remaining {
             mean: arrival.mean - elapsed,
             low: arrival.quantile(0.1) - elapsed,
@@ -143,30 +243,32 @@ impl Track {
 
     /// The state `later` seconds after the latest observation, given one destination or any of them.
     pub(super) fn state(
-        &self,
-        posterior: &Posterior,
+        &mut self,
+        scenario: &Scenario,
+        posterior: &mut Posterior,
         destinations: &Destinations,
         later: f64,
         only: Option<usize>,
     ) -> Option<Gaussian> {
-        let shares = posterior.shares(destinations, only);
-        match &self.followed {
-            Followed::Papers { movement, frozen } => {
-                posterior.state(frozen.as_deref().unwrap_or(movement), movement, destinations, &shares, later)
-            }
-            Followed::Pointing(pointing) => Some(pointing.state(destinations, &shares, later)),
+        if let Followed::Pointing(pointing) = &self.followed {
+            return Some(pointing.state(destinations, &posterior.shares(destinations, only), later));
         }
+        let (movement, believed) = self.dense(scenario, destinations, posterior)?;
+        posterior.state(believed, movement, destinations, &posterior.shares(destinations, only), later)
     }
 
     /// The smoothed state at the first observation.
-    pub(super) fn initial_state(&self, posterior: &Posterior, destinations: &Destinations) -> Option<Gaussian> {
-        let shares = posterior.shares(destinations, None);
-        match &self.followed {
-            Followed::Papers { movement, frozen } => {
-                posterior.initial_state(frozen.as_deref().unwrap_or(movement), &shares)
-            }
-            Followed::Pointing(pointing) => Some(pointing.initial_state(destinations, &shares)),
+    pub(super) fn initial_state(
+        &mut self,
+        scenario: &Scenario,
+        posterior: &mut Posterior,
+        destinations: &Destinations,
+    ) -> Option<Gaussian> {
+        if let Followed::Pointing(pointing) = &self.followed {
+            return Some(pointing.initial_state(destinations, &posterior.shares(destinations, None)));
         }
+        let (_, believed) = self.dense(scenario, destinations, posterior)?;
+        posterior.initial_state(believed, &posterior.shares(destinations, None))
     }
 
     /// Other destinations in mid-movement; `origin` tells which old one each was, where the motion model knows them.
@@ -185,13 +287,32 @@ impl Track {
                     None => Some(Box::new(movement.clone())),
                 };
             }
+            Followed::Telescoped { now, before, dense } => {
+                let Some(plan) = scenario.engine.plan(destinations, &self.start) else { return };
+                now.replan(destinations, &plan);
+                *before = match before.take() {
+                    _ if plan.is_alive(now.elapsed()) => None,
+                    Some(mut before) => {
+                        before.replan(destinations, &plan);
+                        Some(before)
+                    }
+                    None => Some(now.clone()),
+                };
+                *dense = None;
+            }
             Followed::Pointing(pointing) => pointing.replan(destinations),
         }
     }
 
     /// What a snapshot keeps.
-    pub(crate) fn save(&self) -> Value {
+    pub(crate) fn save(&self, scenario: &Scenario, destinations: &Destinations) -> Value {
         let (movement, frozen) = match &self.followed {
+            Followed::Telescoped { now, before, .. } => {
+                densely(now, before.as_deref(), scenario, destinations, &self.start)
+                    .map_or((Value::Null, Value::Null), |(movement, before)| {
+                        (movement.save(), before.map_or(Value::Null, |before| before.save()))
+                    })
+            }
             Followed::Papers { movement, frozen } => {
                 (movement.save(), frozen.as_ref().map_or(Value::Null, |movement| movement.save()))
             }
@@ -221,7 +342,17 @@ impl Track {
                     Movement::load(node, &scenario.motion, *method, destinations, plan)
                 };
                 let frozen = fields.optional("frozen").map(|frozen| load(&frozen).map(Box::new)).transpose()?;
-                Followed::Papers { movement: load(&saved)?, frozen }
+                let movement = load(&saved)?;
+                if telescopes(scenario) {
+                    let resume = |movement: &Movement| {
+                        let separately = scenario.observation.is_position();
+                        Box::new(Telescoped::resume(&scenario.motion, destinations, movement, separately))
+                    };
+                    let before = frozen.as_deref().map(resume);
+                    Followed::Telescoped { now: resume(&movement), before, dense: None }
+                } else {
+                    Followed::Papers { movement, frozen }
+                }
             }
             Engine::Pointing(parameters) => {
                 if fields.optional("frozen").is_some() {
@@ -238,4 +369,18 @@ impl Track {
             followed,
         })
     }
+}
+
+/// What [`Followed::Telescoped`] follows, as the dense engines have it.
+fn densely(
+    now: &Telescoped,
+    before: Option<&Telescoped>,
+    scenario: &Scenario,
+    destinations: &Destinations,
+    start: &[f64],
+) -> Option<(Movement, Option<Movement>)> {
+    let movement = |telescoped: &Telescoped| {
+        telescoped.movement(&scenario.motion, destinations, scenario.engine.plan(destinations, start)?)
+    };
+    Some((movement(now)?, before.and_then(movement)))
 }

@@ -7,3 +7,4 @@ mod life;
 mod pointing;
 mod sequences;
 mod support;
+mod telescoped;

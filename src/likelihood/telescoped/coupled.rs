@@ -1,0 +1,148 @@
+//! Models, observations or endpoints that mix axes: one filter over the whole state, and the endpoint's position as one
+//! Gaussian with correlations. What the endpoint names beyond the position is conditioned on, as in [`super::separable`].
+
+use super::classes::End;
+use crate::math::gaussian::Gaussian;
+use crate::math::kalman::Filter;
+use crate::math::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
+use crate::model::motion::{MotionModel, Transition};
+use nalgebra::DVector;
+
+/// A matrix over the axes.
+type Matrix = [[f64; AXES]; AXES];
+
+/// The Kalman posterior now, and that of the first observation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupled {
+    /// `p(x_1 | y_1)`.
+    pub first: Gaussian,
+    /// Over the pair (first observation, now).
+    pub filter: Filter,
+}
+
+impl Coupled {
+    /// The state now.
+    pub fn now(&self) -> Gaussian {
+        Gaussian { mean: self.filter.mean(0), covariance: self.filter.current_covariance() }
+    }
+
+    /// What the first observation says of the state `elapsed` after it.
+    pub fn foresee(&self, model: &dyn MotionModel, elapsed: f64) -> Gaussian {
+        let step = model.transition(elapsed);
+        let covariance = &step.transition * &self.first.covariance * step.transition.transpose() + step.noise;
+        Gaussian { mean: step.transition * &self.first.mean + step.offset, covariance }
+    }
+}
+
+/// The endpoint of one node, as far as the position is concerned: a Gaussian, and the density of the rest.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    mean: [f64; AXES],
+    covariance: Matrix,
+    /// The rest's density is the root of this ...
+    density: f64,
+    /// ... times two to this, and a constant.
+    exponent: f64,
+}
+
+impl Seen {
+    /// From a state, `step` before the endpoint.
+    #[inline(never)]
+    fn new(from: &Gaussian, step: &Transition, end: &End, d: usize) -> Self {
+        let (s, length) = (from.mean.len(), end.covariance.nrows());
+        let mut covariance = end.covariance.clone();
+        let mut mean = DVector::zeros(length);
+        let mut product = DVector::zeros(s);
+        for i in 0..length {
+            let row = step.transition.row(i);
+            mean[i] = step.offset[i] + (0..s).map(|m| row[m] * from.mean[m]).sum::<f64>();
+            for m in 0..s {
+                product[m] = (0..s).map(|j| row[j] * from.covariance[(j, m)]).sum::<f64>();
+            }
+            for j in 0..=i {
+                let entry = (0..s).map(|m| product[m] * step.transition[(j, m)]).sum::<f64>();
+                covariance[(i, j)] += step.noise[(i, j)] + entry;
+            }
+        }
+        let (mut density, mut exponent) = (1.0, 0.0);
+        for r in (d..length).rev() {
+            let inverse = 1.0 / covariance[(r, r)];
+            let error = end.rest[r - d] - mean[r];
+            density *= inverse;
+            exponent -= HALF_LOG2_E * (error * error * inverse);
+            for i in 0..r {
+                let gain = covariance[(r, i)] * inverse;
+                mean[i] += gain * error;
+                for j in 0..=i {
+                    covariance[(i, j)] -= gain * covariance[(r, j)];
+                }
+            }
+        }
+        let mut seen = Self { mean: [0.0; AXES], covariance: [[0.0; AXES]; AXES], density, exponent };
+        for i in 0..d {
+            seen.mean[i] = mean[i];
+            for j in 0..=i {
+                seen.covariance[i][j] = covariance[(i, j)];
+                seen.covariance[j][i] = covariance[(i, j)];
+            }
+        }
+        seen
+    }
+}
+
+/// The term of a node: the ratio of the endpoint's density seen from now to that seen from the start, about the mean seen from
+/// now, `factor` times two to `lead` in front. None where a covariance is singular.
+pub fn ellipsoid(
+    now: (&Gaussian, &Transition),
+    start: (&Gaussian, &Transition),
+    end: &End,
+    factor: f64,
+    lead: f64,
+    d: usize,
+) -> Option<Ellipsoid> {
+    let here = Seen::new(now.0, now.1, end, d);
+    let there = Seen::new(start.0, start.1, end, d);
+    let (precision, determinant) = inverse(here.covariance, d)?;
+    let (start_precision, start_determinant) = inverse(there.covariance, d)?;
+    let mut term = Ellipsoid {
+        center: here.mean,
+        factor: factor * (start_determinant / determinant * (here.density / there.density)).sqrt(),
+        constant: lead + here.exponent - there.exponent,
+        ..Ellipsoid::default()
+    };
+    for i in 0..d {
+        let apart = |j: usize| here.mean[j] - there.mean[j];
+        let lean = HALF_LOG2_E * (0..d).map(|j| start_precision[i][j] * apart(j)).sum::<f64>();
+        term.slope[i] = 2.0 * lean;
+        term.constant += lean * apart(i);
+        for j in i..d {
+            let twice = if i == j { 1.0 } else { 2.0 };
+            term.curvature[i][j] = twice * HALF_LOG2_E * (start_precision[i][j] - precision[i][j]);
+        }
+    }
+    Some(term)
+}
+
+/// The inverse and the determinant of a positive definite matrix over the first `d` axes; none where it is not.
+fn inverse(mut matrix: Matrix, d: usize) -> Option<(Matrix, f64)> {
+    let mut determinant = 1.0;
+    // Gauss and Jordan in place; a positive definite matrix needs no pivoting
+    for k in 0..d {
+        let pivot = matrix[k][k];
+        determinant *= pivot;
+        if !(pivot > 0.0) {
+            return None;
+        }
+        let over = 1.0 / pivot;
+        matrix[k][k] = 1.0;
+        matrix[k][..d].iter_mut().for_each(|x| *x *= over);
+        let row = matrix[k];
+        for (i, other) in matrix.iter_mut().enumerate().take(d) {
+            if i != k {
+                let factor = std::mem::replace(&mut other[k], 0.0);
+                other[..d].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * y);
+            }
+        }
+    }
+    Some((matrix, determinant))
+}

@@ -1,0 +1,538 @@
+//! `pseudoObservation` where the motion model does not know the destination, at the speed of the machine.
+//!
+//! The telescoped form of [`super::pseudo_observation`] is the ratio of two Gaussian densities of the endpoint, so its
+//! logarithm is a quadratic in the endpoint's mean whose coefficients depend on nothing but the node and the class of the
+//! endpoint's covariance:
+//!
+//! ```text
+//! p(D_i | y_1:k) ~ prior_i sum_n w_n N(a_i; m_n, V_n + S) / N(a_i; u_n, U_n + S)
+//! ```
+//!
+//! | part | what |
+//! |---|---|
+//! | [`separable`] | the filters, `m_n, V_n, u_n, U_n` where axes do not mix |
+//! | [`coupled`] | the same where they do |
+//! | [`classes`] | the destinations in flat arrays |
+//! | [`terms`] | the coefficients |
+//! | [`crate::math::mixture`] | the sum |
+//!
+//! [`super::pseudo_observation`] says the same densely, one pair at a time; a test holds the two together.
+
+pub mod classes;
+pub mod coupled;
+pub mod separable;
+pub mod terms;
+
+use super::Method;
+use super::candidates::{Movement, advance_filter};
+use super::plan::Plan;
+use crate::error::Result;
+use crate::math::gaussian::Gaussian;
+use crate::math::kalman::{Filter, Measurement};
+use crate::math::lanes::{Block, WIDTH};
+use crate::math::mixture::AXES;
+use crate::model::destination::Destinations;
+use crate::model::motion::{Motion, MotionModel, Transition};
+use classes::{Class, Classes, End, Nodes};
+use coupled::Coupled;
+use nalgebra::{DMatrix, DVector};
+use separable::{Axes, AxisEnd, AxisFilter, MOST, NodeTable};
+use std::sync::Arc;
+use terms::{Sight, Work};
+
+/// The movement under one noise candidate.
+#[derive(Clone, Debug)]
+struct Candidate {
+    model: Arc<dyn MotionModel>,
+    /// `w_c`.
+    weight: f64,
+    source: Source,
+    tables: Tables,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    Separable { first: Axes, now: Axes },
+    Coupled(Box<Coupled>),
+}
+
+/// Steps to the nodes, kept as long as they stay the same.
+#[derive(Clone, Debug, Default)]
+struct Tables {
+    now: StepsTo,
+    start: StepsTo,
+}
+
+#[derive(Clone, Debug, Default)]
+struct StepsTo {
+    /// Which nodes, and how much of their time had passed.
+    of: Option<(usize, u64)>,
+    axes: [NodeTable; MOST],
+    whole: Vec<Transition>,
+}
+
+/// A movement so far, with everything that turns it into probabilities.
+#[derive(Clone, Debug)]
+pub struct Telescoped {
+    candidates: Vec<Candidate>,
+    classes: Arc<Classes>,
+    /// `t_k - t_1`.
+    elapsed: f64,
+    /// `k`.
+    observations: u64,
+    /// A whole number near the logarithm of the weights' sum.
+    shift: f64,
+    weights: Vec<Block>,
+    node_weights: Vec<Block>,
+    work: Work,
+}
+
+/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is nothing beside it.
+const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
+
+/// Probabilities below this are zero, so that the shift does not matter.
+const LEAST: f64 = 1.5e-241;
+
+impl Telescoped {
+    /// A movement at its first observation, `first` being `p(x_1 | y_1)`. `separately` tells whether all that is observed
+    /// concerns one axis at a time.
+    #[must_use]
+    pub fn begin(
+        motion: &Motion,
+        destinations: &Destinations,
+        plan: &Plan,
+        first: &Gaussian,
+        separately: bool,
+    ) -> Self {
+        let filter = Filter::new(first, 1);
+        Self::new(motion, destinations, plan, first, &vec![&filter; motion.candidates.len()], separately)
+    }
+
+    fn new(
+        motion: &Motion,
+        destinations: &Destinations,
+        plan: &Plan,
+        first: &Gaussian,
+        filters: &[&Filter],
+        separately: bool,
+    ) -> Self {
+        let each = || motion.candidates.iter().zip(filters);
+        let axes = each().map(|(candidate, filter)| axes_of(candidate.model.as_ref(), first, filter)).collect();
+        let axes: Option<Vec<_>> = if separately { axes } else { None };
+        let classes = Arc::new(Classes::new(destinations, plan, axes.is_some()));
+        let mut axes = axes.filter(|_| classes.separable).unwrap_or_default().into_iter();
+        let candidates = each().map(|(candidate, filter)| Candidate {
+            model: Arc::clone(&candidate.model),
+            weight: candidate.weight,
+            source: match axes.next() {
+                Some((first, now)) => Source::Separable { first, now },
+                None => Source::Coupled(Box::new(Coupled { first: first.clone(), filter: (*filter).clone() })),
+            },
+            tables: Tables::default(),
+        });
+        Self {
+            candidates: candidates.collect(),
+            weights: vec![[0.0; WIDTH]; classes.priors.len()],
+            classes,
+            elapsed: 0.0,
+            observations: 1,
+            shift: 0.0,
+            node_weights: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// From now on the axes are taken together. Every candidate is separable, or none is.
+    pub fn couple(&mut self, destinations: &Destinations, plan: &Plan) {
+        for candidate in &mut self.candidates {
+            if let Source::Separable { first, now } = &candidate.source {
+                candidate.source = Source::Coupled(Box::new(coupled_of(first, now)));
+            }
+        }
+        self.replan(destinations, plan);
+    }
+
+    /// `t_k - t_1`.
+    #[must_use]
+    pub const fn elapsed(&self) -> f64 {
+        self.elapsed
+    }
+
+    /// `k`, the number of observations.
+    #[must_use]
+    pub const fn observations(&self) -> u64 {
+        self.observations
+    }
+
+    /// Whether some node with weight lies after `elapsed`.
+    #[must_use]
+    pub fn is_alive(&self, elapsed: f64) -> bool {
+        self.classes.nodes.iter().any(|nodes| nodes.is_alive(elapsed))
+    }
+
+    /// Whether an observation can be taken axis by axis.
+    #[must_use]
+    pub fn is_separable(&self) -> bool {
+        self.candidates.iter().all(|candidate| matches!(candidate.source, Source::Separable { .. }))
+    }
+
+    /// Takes in an observation whose noise is independent in each axis, `elapsed` seconds after the first one; none marks an
+    /// axis that was not observed. It allocates nothing. False where the movement is not separable; nothing has changed then.
+    pub fn advance_separately(&mut self, elapsed: f64, position: &[Option<f64>], variance: &[f64; MOST]) -> bool {
+        if !self.is_separable() {
+            return false;
+        }
+        for candidate in &mut self.candidates {
+            if let Source::Separable { now, .. } = &mut candidate.source {
+                now.advance(candidate.model.as_ref(), elapsed - self.elapsed, position, variance);
+            }
+        }
+        self.elapsed = elapsed;
+        self.observations += 1;
+        true
+    }
+
+    /// Takes in any observation, `elapsed` seconds after the first one, once [`Telescoped::couple`] has been called or where
+    /// the movement never was separable.
+    ///
+    /// # Errors
+    /// As [`Movement::advance`]; nothing has changed then.
+    pub fn advance(&mut self, elapsed: f64, measurement: &Measurement) -> Result<()> {
+        let step = elapsed - self.elapsed;
+        let advanced = self.candidates.iter().map(|candidate| match &candidate.source {
+            Source::Separable { .. } => Ok(None),
+            Source::Coupled(coupled) => {
+                advance_filter(&coupled.filter, candidate.model.as_ref(), step, measurement).map(Some)
+            }
+        });
+        let advanced = advanced.collect::<Result<Vec<_>>>()?;
+        for (candidate, filter) in self.candidates.iter_mut().zip(advanced) {
+            if let (Source::Coupled(coupled), Some(filter)) = (&mut candidate.source, filter) {
+                coupled.filter = filter;
+            }
+        }
+        self.elapsed = elapsed;
+        self.observations += 1;
+        Ok(())
+    }
+
+    /// The same movement with the dense engines, which answer everything else that is asked about it.
+    #[must_use]
+    pub fn movement(&self, motion: &Motion, destinations: &Destinations, plan: Plan) -> Option<Movement> {
+        let (first, _) = self.candidates.first()?.whole();
+        let mut movement = Movement::begin(motion, Method::PseudoObservation, destinations, plan, first);
+        for (world, candidate) in movement.worlds.iter_mut().zip(&self.candidates) {
+            world.filter = candidate.whole().1;
+        }
+        movement.elapsed = self.elapsed;
+        movement.observations = self.observations;
+        Some(movement)
+    }
+
+    /// A movement as it was when [`Telescoped::movement`] told it.
+    #[must_use]
+    pub fn resume(motion: &Motion, destinations: &Destinations, movement: &Movement, separately: bool) -> Self {
+        let filters: Vec<&Filter> = movement.worlds.iter().map(|world| &world.filter).collect();
+        let mut telescoped = Self::new(motion, destinations, &movement.plan, &movement.first, &filters, separately);
+        telescoped.elapsed = movement.elapsed;
+        telescoped.observations = movement.observations;
+        telescoped
+    }
+
+    /// Other destinations, in mid-movement.
+    pub fn replan(&mut self, destinations: &Destinations, plan: &Plan) {
+        self.classes = Arc::new(Classes::new(destinations, plan, self.is_separable()));
+        if self.is_separable() && !self.classes.separable {
+            return self.couple(destinations, plan);
+        }
+        self.weights.clear();
+        self.weights.resize(self.classes.priors.len(), [0.0; WIDTH]);
+        for candidate in &mut self.candidates {
+            candidate.tables = Tables::default();
+        }
+    }
+
+    /// Liang (3) and (6): the probabilities of the destinations, in their order, and that of none of them, whose prior is
+    /// `none`. None where there is no likelihood that is a number above zero.
+    pub fn probabilities(&mut self, none: f64, into: &mut Vec<f64>) -> Option<f64> {
+        if self.observations < 2 {
+            self.classes.scatter(&self.classes.priors, into);
+            into.iter_mut().for_each(|p| *p *= 1.0 - none);
+            return Some(none);
+        }
+        let mut total = self.weigh();
+        if !IN_RANGE.contains(&total) {
+            let mut logs = std::mem::take(&mut self.weights);
+            self.log2_sums(&mut logs);
+            let weighed = logs.as_flattened().iter().zip(self.classes.priors.as_flattened());
+            let top = weighed.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
+            let top = top.fold(f64::NEG_INFINITY, f64::max);
+            self.weights = logs;
+            if !top.is_finite() {
+                return None;
+            }
+            self.shift = top.round();
+            total = self.weigh();
+        }
+        if !(total > 0.0 && total.is_finite()) {
+            return None;
+        }
+        // against it "none", whose ratio of densities is one, under the same shift
+        let level = self.candidates.iter().map(|candidate| candidate.weight * self.lead(candidate).exp2()).sum::<f64>();
+        let others = none / (1.0 - none) * level;
+        let (scale, none) = if others > 0.0 {
+            let log = others.log2() - self.shift - total.log2();
+            ((1.0 + log.exp2()).recip(), (1.0 + (-log).exp2()).recip())
+        } else {
+            (1.0, 0.0)
+        };
+        let (scale, least) = (scale / total, LEAST * total);
+        self.classes.scatter(&self.weights, into);
+        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
+        let beyond = total.log2().round();
+        if beyond.abs() > 8.0 {
+            self.shift += beyond;
+        }
+        Some(none)
+    }
+
+    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order.
+    pub fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
+        let mut logs = vec![[0.0; WIDTH]; self.weights.len()];
+        if self.observations > 1 {
+            self.log2_sums(&mut logs);
+        }
+        self.classes.scatter(&logs, into);
+        let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        into.iter_mut().for_each(|log| *log = *log * std::f64::consts::LN_2 + evidence);
+    }
+
+    /// What a candidate's evidence has over that of the first one, as a power of two.
+    fn lead(&self, candidate: &Candidate) -> f64 {
+        let first = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        (candidate.log_evidence() - first) * std::f64::consts::LOG2_E
+    }
+
+    fn weigh(&mut self) -> f64 {
+        let classes = Arc::clone(&self.classes);
+        let origin = self.candidates.first().map_or([0.0; 3], Candidate::position);
+        let mut total = 0.0;
+        let mut seen = None;
+        for class in &classes.classes {
+            if seen != Some((class.nodes, class.end)) {
+                self.see(&classes, class);
+                seen = Some((class.nodes, class.end));
+            }
+            total += self.work.weigh(&classes, class, origin, self.shift, &mut self.weights);
+        }
+        total
+    }
+
+    fn log2_sums(&mut self, logs: &mut [Block]) {
+        let classes = Arc::clone(&self.classes);
+        let mut seen = None;
+        for class in &classes.classes {
+            if seen != Some((class.nodes, class.end)) {
+                self.see(&classes, class);
+                seen = Some((class.nodes, class.end));
+            }
+            self.work.log2_sums(&classes, class, logs);
+        }
+    }
+
+    /// Prepares the terms of a class: what every candidate sees of its endpoint.
+    fn see(&mut self, classes: &Classes, class: &Class) {
+        let (Some(nodes), Some(end)) = (classes.nodes.get(class.nodes), classes.ends.get(class.end)) else { return };
+        let elapsed = self.elapsed;
+        nodes.weights_ahead(elapsed, &mut self.node_weights);
+        self.work.clear();
+        let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        for candidate in &mut self.candidates {
+            let lead = (candidate.log_evidence() - evidence) * std::f64::consts::LOG2_E;
+            candidate.see(class.nodes, nodes, end, elapsed, &self.node_weights, lead, &mut self.work);
+        }
+    }
+}
+
+impl Candidate {
+    fn log_evidence(&self) -> f64 {
+        match &self.source {
+            Source::Separable { now, .. } => now.log_evidence,
+            Source::Coupled(coupled) => coupled.filter.evidence(0),
+        }
+    }
+
+    /// `p(x_1 | y_1)` and the filter, of the whole state.
+    fn whole(&self) -> (Gaussian, Filter) {
+        match &self.source {
+            Source::Separable { first, now } => {
+                let Coupled { first, filter } = coupled_of(first, now);
+                (first, filter)
+            }
+            Source::Coupled(coupled) => (coupled.first.clone(), coupled.filter.clone()),
+        }
+    }
+
+    /// The position now.
+    fn position(&self) -> [f64; AXES] {
+        match &self.source {
+            Source::Separable { now, .. } => now.filters.map(|filter| filter.mean[0]),
+            Source::Coupled(coupled) => {
+                let s = coupled.filter.states;
+                std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })
+            }
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
+    fn see(
+        &mut self,
+        number: usize,
+        nodes: &Nodes,
+        end: &End,
+        elapsed: f64,
+        weights: &[Block],
+        lead: f64,
+        work: &mut Work,
+    ) {
+        let model = self.model.as_ref();
+        let Tables { now: to_now, start: to_start } = &mut self.tables;
+        // nodes that count from now are as far from now as from where the start's prediction has come to by then
+        let passed = if nodes.from_now { 0.0 } else { elapsed };
+        match &self.source {
+            Source::Separable { first, now } => {
+                let Some(axes) = &end.axes else { return };
+                to_now.fill_axes(model, now, number, axes, nodes, passed);
+                let mut foreseen = *first;
+                if nodes.from_now {
+                    foreseen.foresee(first, model, elapsed);
+                } else {
+                    to_start.fill_axes(model, first, number, axes, nodes, 0.0);
+                }
+                let start_tables = if nodes.from_now { &to_now.axes } else { &to_start.axes };
+                let sight = Sight {
+                    now,
+                    start: &foreseen,
+                    tables: &to_now.axes,
+                    start_tables,
+                    weights,
+                    weight: self.weight,
+                    lead,
+                };
+                work.see(&sight, axes);
+            }
+            Source::Coupled(coupled) => {
+                to_now.fill_whole(model, number, nodes, passed);
+                let start = if nodes.from_now {
+                    coupled.foresee(model, elapsed)
+                } else {
+                    to_start.fill_whole(model, number, nodes, 0.0);
+                    coupled.first.clone()
+                };
+                let start_steps = if nodes.from_now { &to_now.whole } else { &to_start.whole };
+                let now = coupled.now();
+                let steps = to_now.whole.iter().zip(start_steps).zip(weights.as_flattened());
+                for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
+                    let factor = self.weight * weight;
+                    let d = model.dimensions();
+                    let term = coupled::ellipsoid((&now, step), (&start, start_step), end, factor, lead, d);
+                    work.ellipsoids.extend(term);
+                }
+            }
+        }
+    }
+}
+
+impl StepsTo {
+    fn is(&mut self, number: usize, passed: f64) -> bool {
+        let of = Some((number, passed.to_bits()));
+        std::mem::replace(&mut self.of, of) == of
+    }
+
+    fn fill_axes(
+        &mut self,
+        model: &dyn MotionModel,
+        axes: &Axes,
+        number: usize,
+        ends: &[AxisEnd; MOST],
+        nodes: &Nodes,
+        passed: f64,
+    ) {
+        let length = ends.iter().map(|end| end.length).max().unwrap_or(1);
+        if self.is(number, passed) && self.axes[0].length() >= length {
+            return;
+        }
+        for axis in (0..axes.dimensions).filter(|&axis| axis == 0 || !axes.alike[axis]) {
+            let length = length.min(axes.filters[axis].states());
+            self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
+        }
+    }
+
+    fn fill_whole(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
+        if self.is(number, passed) {
+            return;
+        }
+        self.whole.clear();
+        self.whole.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
+    }
+}
+
+/// The filter of the whole state from those of separate axes.
+fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
+    let (start, filter) = (whole(first), whole(now));
+    let s = filter.states;
+    let first = Gaussian {
+        mean: start.means.column(0).rows(s, s).into_owned(),
+        covariance: start.covariance.view((s, s), (s, s)).into_owned(),
+    };
+    Coupled { first, filter }
+}
+
+fn whole(axes: &Axes) -> Filter {
+    let d = axes.dimensions;
+    let s = axes.filters.iter().take(d).map(AxisFilter::states).sum();
+    let zero = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
+    let mut filter = Filter::new(&zero, 1);
+    filter.log_evidence = vec![axes.log_evidence];
+    for (axis, of) in axes.filters.iter().enumerate().take(d) {
+        for (from, to) in places(of.states(), axis, d, s) {
+            filter.means[(to, 0)] = of.mean[from];
+            for (other, there) in places(of.states(), axis, d, s) {
+                filter.covariance[(to, there)] = of.covariance[from][other];
+            }
+        }
+    }
+    filter
+}
+
+/// Where the components of an axis stand, in its own filter and in that of the whole state, whose first half is the first state.
+fn places(states: usize, axis: usize, d: usize, s: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..states).flat_map(move |i| [(i, s + i * d + axis), (MOST + i, i * d + axis)])
+}
+
+/// The filters of separate axes from those of the whole state; none where the model or the state mixes axes.
+fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
+    let mut now = Axes::new(model)?;
+    let (d, s) = (now.dimensions, filter.states);
+    if !filter.covariance.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mixes = |i: usize, j: usize| i % s % d != j % s % d && filter.covariance[(i, j)] != 0.0;
+    if (0..2 * s).any(|i| (0..i).any(|j| mixes(i, j))) {
+        return None;
+    }
+    let mut start = now;
+    for axis in 0..d {
+        let states = now.filters[axis].states();
+        for (to, from) in places(states, axis, d, s) {
+            now.filters[axis].mean[to] = filter.means[(from, 0)];
+            start.filters[axis].mean[to] = first.mean[from % s];
+            for (there, other) in places(states, axis, d, s) {
+                now.filters[axis].covariance[to][there] = filter.covariance[(from, other)];
+                start.filters[axis].covariance[to][there] = first.covariance[(from % s, other % s)];
+            }
+        }
+    }
+    now.log_evidence = *filter.log_evidence.first()?;
+    Some((start, now))
+}

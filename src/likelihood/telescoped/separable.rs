@@ -1,0 +1,351 @@
+//! Models whose axes do not mix: each axis is a small filter of its own, and its endpoint one scalar Gaussian.
+//!
+//! Where the endpoint names more than the position (a velocity, an acceleration on arrival), the density of those is taken
+//! first and the position is conditioned on them, so what is left is a scalar Gaussian of the position still. Eight arrival
+//! nodes are worked on at a time. Axes that are alike (one noise, one history of observation noise) share all that does not
+//! depend on a mean.
+
+use crate::math::lanes::{Block, Lanes, WIDTH};
+use crate::math::mixture::HALF_LOG2_E;
+use crate::model::motion::{AxisTransition, MotionModel};
+
+/// The most components of one axis: position, velocity, acceleration.
+pub const MOST: usize = 3;
+
+const PAIR: usize = 2 * MOST;
+
+/// The Kalman posterior of one axis over the pair (now, first observation), Liang (8) and the usual correction. The first
+/// state rides along, as in [`crate::math::kalman`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisFilter {
+    states: usize,
+    /// The state now; the first one from `MOST` on.
+    pub mean: [f64; PAIR],
+    /// Of both; symmetric.
+    pub covariance: [[f64; PAIR]; PAIR],
+}
+
+/// What one observation of one axis does: the gain, and the prediction error's variance.
+#[derive(Clone, Copy, Debug)]
+struct Correction {
+    gain: [f64; PAIR],
+    spread: f64,
+}
+
+impl AxisFilter {
+    /// A filter of an axis with so many components, all zero.
+    pub fn new(states: usize) -> Self {
+        Self { states: states.min(MOST), mean: [0.0; PAIR], covariance: [[0.0; PAIR]; PAIR] }
+    }
+
+    /// How many components the axis has.
+    pub const fn states(&self) -> usize {
+        self.states
+    }
+
+    fn components(&self) -> impl Iterator<Item = usize> + use<> {
+        let states = self.states;
+        (0..states).chain(MOST..MOST + states)
+    }
+
+    fn predict_mean(&mut self, step: &AxisTransition) {
+        let before = self.mean;
+        for i in 0..self.states {
+            self.mean[i] = step.offset[i] + (0..self.states).map(|j| step.transition[i][j] * before[j]).sum::<f64>();
+        }
+    }
+
+    fn predict_covariance(&mut self, step: &AxisTransition) {
+        let (s, f) = (self.states, &step.transition);
+        let mut product = [[0.0; PAIR]; MOST];
+        for i in 0..s {
+            for j in self.components() {
+                product[i][j] = (0..s).map(|m| f[i][m] * self.covariance[m][j]).sum();
+            }
+        }
+        for i in 0..s {
+            for j in 0..=i {
+                let entry = step.noise[i][j] + (0..s).map(|m| product[i][m] * f[j][m]).sum::<f64>();
+                self.covariance[i][j] = entry;
+                self.covariance[j][i] = entry;
+            }
+            for j in MOST..MOST + s {
+                self.covariance[i][j] = product[i][j];
+                self.covariance[j][i] = product[i][j];
+            }
+        }
+    }
+
+    fn correct_covariance(&mut self, variance: f64) -> Correction {
+        let row = self.covariance[0];
+        let spread = row[0] + variance;
+        let gain = row.map(|entry| entry / spread);
+        for i in self.components() {
+            for j in self.components() {
+                self.covariance[i][j] -= gain[i] * row[j];
+            }
+        }
+        // the same without the difference, which cancels where the position was all but unknown
+        let rest = variance / spread;
+        for i in self.components() {
+            self.covariance[0][i] = row[i] * rest;
+            self.covariance[i][0] = row[i] * rest;
+        }
+        Correction { gain, spread }
+    }
+
+    fn correct_mean(&mut self, correction: &Correction, position: f64) -> f64 {
+        let error = position - self.mean[0];
+        for i in self.components() {
+            self.mean[i] += correction.gain[i] * error;
+        }
+        error
+    }
+}
+
+/// The filters of all axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    /// How many axes there are.
+    pub dimensions: usize,
+    /// A filter for each axis, and unused ones up to `MOST`.
+    pub filters: [AxisFilter; MOST],
+    /// Whether an axis moves as the first one does, offset included.
+    pub alike: [bool; MOST],
+    /// `ln p(y_2:k | y_1)`.
+    pub log_evidence: f64,
+}
+
+impl Axes {
+    /// Filters for a model, none where its axes mix. Means and covariances are zero.
+    pub fn new(model: &dyn MotionModel) -> Option<Self> {
+        let mut filters = [AxisFilter::new(0); MOST];
+        let mut alike = [true; MOST];
+        for axis in 0..model.dimensions() {
+            *filters.get_mut(axis)? = AxisFilter::new(model.axis(axis, 0.0)?.states);
+            // a linear, time-invariant model that is the same over two steps is the same over all
+            alike[axis] = [0.37, 1.0].iter().all(|&step| model.axis(axis, step) == model.axis(0, step));
+        }
+        Some(Self { dimensions: model.dimensions(), filters, alike, log_evidence: 0.0 })
+    }
+
+    /// One observation, `step` seconds after the last: positions where observed, and their variances.
+    pub fn advance(&mut self, model: &dyn MotionModel, step: f64, position: &[Option<f64>], variance: &[f64; MOST]) {
+        let before = self.filters[0].covariance;
+        let mut first: Option<(AxisTransition, Option<Correction>)> = None;
+        let (mut squares, mut spreads) = (0.0, 1.0);
+        for axis in 0..self.dimensions {
+            let observed = position.get(axis).copied().flatten();
+            let [leading, ..] = self.filters;
+            let filter = &mut self.filters[axis];
+            // an axis that is as the first one in all but its mean takes everything else from there
+            let twin = first.filter(|(_, correction)| {
+                self.alike[axis]
+                    && filter.covariance == before
+                    && correction.is_some() == observed.is_some()
+                    && variance[axis] == variance[0]
+            });
+            let Some(transition) = twin.map_or_else(|| model.axis(axis, step), |(step, _)| Some(step)) else { return };
+            filter.predict_mean(&transition);
+            let correction = match twin {
+                Some((_, correction)) => {
+                    filter.covariance = leading.covariance;
+                    correction
+                }
+                None => {
+                    filter.predict_covariance(&transition);
+                    observed.map(|_| filter.correct_covariance(variance[axis]))
+                }
+            };
+            if let (Some(y), Some(correction)) = (observed, &correction) {
+                let error = filter.correct_mean(correction, y);
+                squares += error * error / correction.spread;
+                spreads *= std::f64::consts::TAU * correction.spread;
+            }
+            first = first.or(Some((transition, correction)));
+        }
+        self.log_evidence -= 0.5 * (squares + spreads.ln());
+    }
+
+    /// What `first`, the posterior of the first observation, says of the state `elapsed` after it.
+    pub fn foresee(&mut self, first: &Self, model: &dyn MotionModel, elapsed: f64) {
+        *self = *first;
+        let Some(transition) = model.axis(0, elapsed) else { return };
+        self.filters[0].predict_mean(&transition);
+        self.filters[0].predict_covariance(&transition);
+        for axis in 1..self.dimensions {
+            if first.shares(axis) {
+                self.filters[axis].predict_mean(&transition);
+                self.filters[axis].covariance = self.filters[0].covariance;
+            } else if let Some(transition) = model.axis(axis, elapsed) {
+                self.filters[axis].predict_mean(&transition);
+                self.filters[axis].predict_covariance(&transition);
+            }
+        }
+    }
+
+    /// Whether an axis can share with the first one all that does not depend on a mean.
+    pub fn shares(&self, axis: usize) -> bool {
+        let (one, first) = (&self.filters[axis], &self.filters[0]);
+        let same = |i: usize| one.covariance[i][..=i] == first.covariance[i][..=i];
+        self.alike[axis] && one.states == first.states && (0..one.states).all(same)
+    }
+}
+
+/// What the endpoint of one axis is, apart from the position's mean and variance, which each destination has of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisEnd {
+    /// How many components the endpoint names, from the position on; at least one.
+    pub length: usize,
+    /// Their means; that of the position is not read.
+    pub mean: [f64; MOST],
+    /// Their covariance; that of the position is zero.
+    pub covariance: [[f64; MOST]; MOST],
+}
+
+/// Transitions of one axis over the times to go of all nodes, eight nodes in a block.
+#[derive(Clone, Debug, Default)]
+pub struct NodeTable {
+    states: usize,
+    length: usize,
+    blocks: Vec<Block>,
+}
+
+impl NodeTable {
+    /// Numbers for each block of nodes and each row: `F`, `M`, and `Q` up to the diagonal.
+    const fn stride(states: usize, length: usize) -> usize {
+        length * (states + 1) + length * (length + 1) / 2
+    }
+
+    /// Fills the table for endpoints of up to `length` components. Times that are not above zero are left out.
+    pub fn fill(
+        &mut self,
+        model: &dyn MotionModel,
+        axis: usize,
+        length: usize,
+        times: impl ExactSizeIterator<Item = f64>,
+    ) {
+        let count = times.len();
+        for (node, time) in times.enumerate() {
+            let Some(step) = model.axis(axis, time.max(0.0)) else { return };
+            let stride = Self::stride(step.states, length);
+            if node == 0 {
+                (self.states, self.length) = (step.states, length);
+                self.blocks.clear();
+                self.blocks.resize(count.div_ceil(WIDTH) * stride, [0.0; WIDTH]);
+            }
+            let lane = node % WIDTH;
+            let start = node / WIDTH * stride;
+            let mut place = self.blocks[start..start + stride].iter_mut();
+            let mut put = |x: f64| {
+                if let Some(block) = place.next() {
+                    block[lane] = x;
+                }
+            };
+            for i in 0..length {
+                step.transition[i][..step.states].iter().for_each(|&x| put(x));
+                put(step.offset[i]);
+                step.noise[i][..=i].iter().for_each(|&x| put(x));
+            }
+        }
+    }
+
+    /// For endpoints of how many components it was filled.
+    pub const fn length(&self) -> usize {
+        self.length
+    }
+}
+
+/// A scalar Gaussian of the endpoint's position for eight nodes, and the density of the rest of the endpoint.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends {
+    /// The position's mean.
+    pub mean: Lanes,
+    /// Its variance, without the destination's own.
+    pub variance: Lanes,
+    /// The rest's density is the root of this ...
+    pub density: Lanes,
+    /// ... times two to this, and a constant.
+    pub exponent: Lanes,
+}
+
+/// What the ends of one block of nodes have in common for all axes that are alike: the covariance, eliminated from its last
+/// component to the second.
+#[derive(Clone, Copy, Debug)]
+pub struct Spread {
+    gain: [[Lanes; MOST]; MOST],
+    inverse: [Lanes; MOST],
+    variance: Lanes,
+    density: Lanes,
+}
+
+impl Spread {
+    /// For block `b` of a table, the covariance now and the endpoint.
+    #[inline(never)]
+    pub fn new(table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Self {
+        let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
+        let (s, length) = (table.states, end.length);
+        let mut spread = Self { gain: [[zero; MOST]; MOST], inverse: [zero; MOST], variance: zero, density: one };
+        let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
+        let mut covariance = [[zero; MOST]; MOST];
+        let mut transitions = [[zero; MOST]; MOST];
+        let mut place = 0;
+        for i in 0..length {
+            for (j, entry) in transitions[i][..s].iter_mut().enumerate() {
+                *entry = Lanes::load(&rows[place + j]);
+            }
+            for j in 0..=i {
+                covariance[i][j] = Lanes::load(&rows[place + s + 1 + j]) + Lanes::splat(end.covariance[i][j]);
+            }
+            place += s + 2 + i;
+            for m in 0..s {
+                let mut product = zero;
+                for (j, entry) in transitions[i][..s].iter().enumerate() {
+                    product = product + *entry * Lanes::splat(filter.covariance[j][m]);
+                }
+                for j in 0..=i {
+                    covariance[i][j] = covariance[i][j] + product * transitions[j][m];
+                }
+            }
+        }
+        for r in (1..length).rev() {
+            let inverse = one / covariance[r][r];
+            spread.inverse[r] = inverse;
+            spread.density = spread.density * inverse;
+            for i in 0..r {
+                let gain = covariance[r][i] * inverse;
+                spread.gain[r][i] = gain;
+                for j in 0..=i {
+                    covariance[i][j] = covariance[i][j] - gain * covariance[r][j];
+                }
+            }
+        }
+        spread.variance = covariance[0][0];
+        spread
+    }
+
+    /// The ends of an axis with this spread.
+    #[inline(never)]
+    pub fn ends(&self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Ends {
+        let (s, length) = (table.states, end.length);
+        let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
+        let mut mean = [Lanes::splat(0.0); MOST];
+        let mut place = 0;
+        for (i, entry) in mean[..length].iter_mut().enumerate() {
+            *entry = Lanes::load(&rows[place + s]);
+            for j in 0..s {
+                *entry = *entry + Lanes::load(&rows[place + j]) * Lanes::splat(filter.mean[j]);
+            }
+            place += s + 2 + i;
+        }
+        let mut exponent = Lanes::splat(0.0);
+        for r in (1..length).rev() {
+            let error = Lanes::splat(end.mean[r]) - mean[r];
+            exponent = exponent - Lanes::splat(HALF_LOG2_E) * (error * error * self.inverse[r]);
+            for i in 0..r {
+                mean[i] = mean[i] + self.gain[r][i] * error;
+            }
+        }
+        Ends { mean: mean[0], variance: self.variance, density: self.density, exponent }
+    }
+}

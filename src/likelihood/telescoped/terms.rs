@@ -1,0 +1,296 @@
+//! The coefficients: from the endpoint seen from now and from the start to the terms of [`crate::math::mixture`].
+//!
+//! With `d = a - m`, `v = V + S`, `u = U + S` for one axis,
+//!
+//! ```text
+//! ln N(a; m, v) / N(a; u_n, u) = -(1/v - 1/u) d^2 / 2 + d (m - u_n) / u + (m - u_n)^2 / 2u + ln(u / v) / 2
+//! ```
+//!
+//! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
+
+use super::classes::{Class, Classes};
+use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
+use crate::math::lanes::{Block, Lanes, WIDTH};
+use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, Places, Term, log2_sums, weigh};
+
+/// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
+/// too much, and the [`Ellipsoid`] is taken.
+const MOST_BITS: f64 = 256.0;
+
+/// The endpoint's position for eight nodes, seen from now and from the start, without its own variance.
+#[derive(Clone, Copy, Debug)]
+struct EndBlock {
+    mean: [Block; AXES],
+    variance: [Block; AXES],
+    start_mean: [Block; AXES],
+    start_variance: [Block; AXES],
+    /// The node's weight times what the rest of the endpoint gives; zero for nodes that have passed.
+    factor: Block,
+    /// What is added to the exponent.
+    constant: Block,
+}
+
+const ZERO: Block = [0.0; WIDTH];
+
+/// Room that is kept from step to step; what is in it is no part of any state.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    ends: Vec<EndBlock>,
+    /// Whether the axes of all ends have one variance.
+    round: bool,
+    /// Coupled sources put their terms here.
+    pub ellipsoids: Vec<Ellipsoid>,
+    balls: Vec<Ball>,
+    owns: Vec<Own>,
+}
+
+/// What a separable source gives for one noise candidate.
+#[derive(Clone, Copy, Debug)]
+pub struct Sight<'a> {
+    /// The filters now.
+    pub now: &'a Axes,
+    /// What the start says of the state at `start_tables`' origin.
+    pub start: &'a Axes,
+    /// Transitions to the nodes from now, for each axis.
+    pub tables: &'a [NodeTable; MOST],
+    /// Transitions to the nodes from where `start` is.
+    pub start_tables: &'a [NodeTable; MOST],
+    /// Prior probabilities of the nodes; zero for those that have passed.
+    pub weights: &'a [Block],
+    /// `w_c` of this candidate.
+    pub weight: f64,
+    /// What this candidate's exponents have over those of the first one.
+    pub lead: f64,
+}
+
+impl Work {
+    /// Forgets the ends and terms of another class.
+    pub fn clear(&mut self) {
+        self.ends.clear();
+        self.ellipsoids.clear();
+        self.round = true;
+    }
+
+    /// Adds the ends that one noise candidate sees.
+    #[inline(never)]
+    pub fn see(&mut self, sight: &Sight<'_>, axes: &[AxisEnd; MOST]) {
+        let (now, start) = (sight.now, sight.start);
+        let alike: [bool; MOST] = std::array::from_fn(|k| {
+            now.shares(k) && start.shares(k) && axes[k] == AxisEnd { mean: axes[k].mean, ..axes[0] }
+        });
+        self.round &= alike[..now.dimensions].iter().all(|alike| *alike);
+        for (b, weights) in sight.weights.iter().enumerate() {
+            let mut ends = EndBlock {
+                mean: [ZERO; AXES],
+                variance: [ZERO; AXES],
+                start_mean: [ZERO; AXES],
+                start_variance: [ZERO; AXES],
+                factor: ZERO,
+                constant: ZERO,
+            };
+            let mut exponent = Lanes::splat(sight.lead);
+            let mut density = Lanes::splat(1.0);
+            let mut start_density = Lanes::splat(1.0);
+            let mut spreads = None;
+            for axis in 0..now.dimensions {
+                let of = if now.alike[axis] { 0 } else { axis };
+                let (table, start_table) = (&sight.tables[of], &sight.start_tables[of]);
+                let (filter, start_filter, end) = (&now.filters[axis], &start.filters[axis], &axes[axis]);
+                let (spread, start_spread) = match spreads {
+                    Some(spreads) if alike[axis] => spreads,
+                    _ => (Spread::new(table, b, filter, end), Spread::new(start_table, b, start_filter, end)),
+                };
+                spreads = spreads.or(Some((spread, start_spread)));
+                let there = spread.ends(table, b, filter, end);
+                let from_start = start_spread.ends(start_table, b, start_filter, end);
+                there.mean.store(&mut ends.mean[axis]);
+                there.variance.store(&mut ends.variance[axis]);
+                from_start.mean.store(&mut ends.start_mean[axis]);
+                from_start.variance.store(&mut ends.start_variance[axis]);
+                exponent = exponent + (there.exponent - from_start.exponent);
+                density = density * there.density;
+                start_density = start_density * from_start.density;
+            }
+            (Lanes::splat(sight.weight) * Lanes::load(weights) * (density / start_density).sqrt())
+                .store(&mut ends.factor);
+            exponent.store(&mut ends.constant);
+            self.ends.push(ends);
+        }
+    }
+
+    /// Writes the weights of a class, `prior_i sum_n f_n 2^(e_n - shift)`, and returns their sum.
+    #[inline(never)]
+    pub fn weigh(
+        &mut self,
+        classes: &Classes,
+        class: &Class,
+        origin: [f64; AXES],
+        shift: f64,
+        weights: &mut [Block],
+    ) -> f64 {
+        let places = classes.places(class, origin);
+        let priors = &classes.priors[class.blocks.clone()];
+        let (d, weights) = (classes.dimensions, &mut weights[class.blocks.clone()]);
+        match class.size {
+            None => {
+                self.owns();
+                weigh_in(d, &self.owns, &places, shift, priors, weights)
+            }
+            Some(size) => {
+                if self.balls(d, &size, &origin) {
+                    weigh_in(d, &self.balls, &places, shift, priors, weights)
+                } else {
+                    self.ellipsoids(d, &size);
+                    weigh_in(d, &self.ellipsoids, &places, shift, priors, weights)
+                }
+            }
+        }
+    }
+
+    /// Writes `log2` of the sums of a class, whatever their size.
+    #[inline(never)]
+    pub fn log2_sums(&mut self, classes: &Classes, class: &Class, logs: &mut [Block]) {
+        let places = classes.places(class, [0.0; AXES]);
+        let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
+        match class.size {
+            None => {
+                self.owns();
+                log2_sums_in(d, &self.owns, &places, logs);
+            }
+            Some(size) => {
+                self.ellipsoids(d, &size);
+                log2_sums_in(d, &self.ellipsoids, &places, logs);
+            }
+        }
+    }
+
+    fn owns(&mut self) {
+        self.owns.clear();
+        for ends in &self.ends {
+            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
+                let of = |blocks: &[Block; AXES]| blocks.map(|block| block[lane]);
+                self.owns.push(Own {
+                    mean: of(&ends.mean),
+                    variance: of(&ends.variance),
+                    start_mean: of(&ends.start_mean),
+                    start_variance: of(&ends.start_variance),
+                    constant: ends.constant[lane],
+                    factor: ends.factor[lane],
+                });
+            }
+        }
+    }
+
+    /// The terms as balls; false where they would cancel or are none.
+    fn balls(&mut self, dimensions: usize, size: &[f64; MOST], origin: &[f64; AXES]) -> bool {
+        self.balls.clear();
+        if self.ends.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
+            return false;
+        }
+        let half = Lanes::splat(HALF_LOG2_E);
+        for ends in &self.ends {
+            let v = Lanes::load(&ends.variance[0]) + Lanes::splat(size[0]);
+            let u = Lanes::load(&ends.start_variance[0]) + Lanes::splat(size[0]);
+            let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
+            let mut slope = [ZERO; AXES];
+            let (mut squares, mut start_squares) = (Lanes::splat(0.0), Lanes::splat(0.0));
+            for axis in 0..dimensions {
+                let p = Lanes::load(&ends.mean[axis]) - Lanes::splat(origin[axis]);
+                let g = Lanes::load(&ends.start_mean[axis]) - Lanes::splat(origin[axis]);
+                let (from_p, from_g) = (p * over_v, g * over_u);
+                ((half + half) * (from_p - from_g)).store(&mut slope[axis]);
+                squares = squares + p * from_p;
+                start_squares = start_squares + g * from_g;
+            }
+            let ratio = u * over_v;
+            let factor = match dimensions {
+                1 => ratio.sqrt(),
+                2 => ratio,
+                _ => ratio * ratio.sqrt(),
+            };
+            let [mut curvature, mut constant, mut factors, mut bits] = [ZERO; 4];
+            (half * (v - u) * over_v * over_u).store(&mut curvature);
+            (Lanes::load(&ends.constant) + half * (start_squares - squares)).store(&mut constant);
+            (Lanes::load(&ends.factor) * factor).store(&mut factors);
+            (half * squares.at_least(start_squares)).store(&mut bits);
+            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
+                if bits[lane] > MOST_BITS {
+                    return false;
+                }
+                self.balls.push(Ball {
+                    curvature: curvature[lane],
+                    slope: slope.map(|block| block[lane]),
+                    constant: constant[lane],
+                    factor: factors[lane],
+                });
+            }
+        }
+        true
+    }
+
+    /// The terms as ellipsoids; those of a coupled source are there already.
+    fn ellipsoids(&mut self, dimensions: usize, size: &[f64; MOST]) {
+        if self.ends.is_empty() {
+            return;
+        }
+        self.ellipsoids.clear();
+        let half = Lanes::splat(HALF_LOG2_E);
+        for ends in &self.ends {
+            let [mut slope, mut curvature] = [[ZERO; AXES]; 2];
+            let mut ratio = Lanes::splat(1.0);
+            let mut constant = Lanes::load(&ends.constant);
+            for axis in 0..dimensions {
+                let v = Lanes::load(&ends.variance[axis]) + Lanes::splat(size[axis]);
+                let u = Lanes::load(&ends.start_variance[axis]) + Lanes::splat(size[axis]);
+                let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
+                let apart = Lanes::load(&ends.mean[axis]) - Lanes::load(&ends.start_mean[axis]);
+                let lean = half * apart * over_u;
+                (lean + lean).store(&mut slope[axis]);
+                (half * (v - u) * over_v * over_u).store(&mut curvature[axis]);
+                constant = constant + lean * apart;
+                ratio = ratio * (u * over_v);
+            }
+            let [mut constants, mut factors] = [ZERO; 2];
+            constant.store(&mut constants);
+            (Lanes::load(&ends.factor) * ratio.sqrt()).store(&mut factors);
+            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
+                let diagonal = |i: usize, j: usize| if i == j { curvature[i][lane] } else { 0.0 };
+                self.ellipsoids.push(Ellipsoid {
+                    center: ends.mean.map(|block| block[lane]),
+                    curvature: std::array::from_fn(|i| std::array::from_fn(|j| diagonal(i, j))),
+                    slope: slope.map(|block| block[lane]),
+                    constant: constants[lane],
+                    factor: factors[lane],
+                });
+            }
+        }
+    }
+}
+
+fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
+    dimensions: usize,
+    terms: &[T],
+    places: &Places<'_>,
+    shift: f64,
+    priors: &[Block],
+    weights: &mut [Block],
+) -> f64 {
+    match dimensions {
+        1 => weigh::<1, T>(terms, places, shift, priors, weights),
+        2 => weigh::<2, T>(terms, places, shift, priors, weights),
+        _ => weigh::<3, T>(terms, places, shift, priors, weights),
+    }
+}
+
+fn log2_sums_in<T: Term<1> + Term<2> + Term<3>>(
+    dimensions: usize,
+    terms: &[T],
+    places: &Places<'_>,
+    logs: &mut [Block],
+) {
+    match dimensions {
+        1 => log2_sums::<1, T>(terms, places, logs),
+        2 => log2_sums::<2, T>(terms, places, logs),
+        _ => log2_sums::<3, T>(terms, places, logs),
+    }
+}

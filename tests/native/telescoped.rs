@@ -1,0 +1,204 @@
+//! The fast form of `pseudoObservation` against the dense one, which says the same one pair at a time.
+
+use crate::support::value;
+use nalgebra::DMatrix;
+use serde_json::{Value as Json, json};
+use whither::Scenario;
+use whither::likelihood::Method;
+use whither::likelihood::candidates::Movement;
+use whither::likelihood::plan::Plan;
+use whither::likelihood::telescoped::Telescoped;
+use whither::math::random::Random;
+use whither::posterior::Posterior;
+
+/// One of a list, at random.
+fn pick<T: Clone>(random: &mut Random, list: &[T]) -> T {
+    list[(random.uniform() * list.len() as f64) as usize].clone()
+}
+
+fn vector(random: &mut Random, d: usize, scale: f64) -> Vec<f64> {
+    (0..d).map(|_| scale * random.normal()).collect()
+}
+
+/// A covariance with correlations, of this scale in each component.
+fn covariance(random: &mut Random, scales: &[f64]) -> Json {
+    let n = scales.len();
+    let root = DMatrix::from_fn(n, n, |i, j| if i == j { 1.5 } else { 0.4 * random.normal() });
+    let square = &root * root.transpose();
+    json!((0..n).map(|i| (0..n).map(|j| square[(i, j)] * scales[i] * scales[j]).collect()).collect::<Vec<Vec<f64>>>())
+}
+
+fn motion(random: &mut Random, d: usize, coupled: bool) -> (Json, usize) {
+    if coupled {
+        let s = 2 * d;
+        let drift = DMatrix::from_fn(s, s, |i, j| match (i < d, j >= d) {
+            (true, true) if j - d == i => 1.0,
+            (false, true) => 0.2 * random.normal() - if i == j { 0.8 } else { 0.0 },
+            _ => 0.0,
+        });
+        let rows: Vec<Vec<f64>> = (0..s).map(|i| (0..s).map(|j| drift[(i, j)]).collect()).collect();
+        let full = covariance(random, &vec![800.0; d]);
+        let diffusion: Vec<Vec<f64>> = (0..s)
+            .map(|i| (0..s).map(|j| if i < d || j < d { 0.0 } else { full[i - d][j - d].as_f64().unwrap() }).collect())
+            .collect();
+        return (
+            json!({ "type": "custom", "dimensions": d, "drift": rows, "diffusion": diffusion, "offset": vector(random, s, 5.0) }),
+            s,
+        );
+    }
+    let kind = pick(random, &["brownian", "constantVelocity", "constantAcceleration", "integratedOrnsteinUhlenbeck"]);
+    let one = |random: &mut Random| 300.0 * (2.0 * random.uniform()).exp();
+    let noise = match pick(random, &[0, 0, 1, 2]) {
+        0 => json!(one(random)),
+        1 => json!((0..d).map(|_| one(random)).collect::<Vec<_>>()),
+        _ => json!({ "candidates": [one(random), one(random), one(random)], "weights": [1, 2, 0.5] }),
+    };
+    let mut motion = json!({ "type": kind, "dimensions": d, "noise": noise });
+    if kind == "integratedOrnsteinUhlenbeck" {
+        motion["damping"] = json!(2.0);
+        motion["drift"] = json!(vector(random, d, 40.0));
+    }
+    let orders = match kind {
+        "brownian" => 1,
+        "constantAcceleration" => 3,
+        _ => 2,
+    };
+    (motion, orders * d)
+}
+
+fn destination(random: &mut Random, i: usize, d: usize, s: usize, of: &str) -> Json {
+    let far = if i % 7 == 6 { 1e5 } else { 700.0 };
+    let center = vector(random, d, far);
+    let prior = 0.1 + random.uniform();
+    let sides: Vec<f64> = (0..d).map(|_| 10.0 + 200.0 * random.uniform()).collect();
+    let mut destination = match of {
+        "one" => json!({ "center": center, "size": 80 }),
+        "oblong" => json!({ "center": center, "size": sides.iter().zip(1..).map(|(_, k)| 40 * k).collect::<Vec<_>>() }),
+        "few" => json!({ "center": center, "size": ([40, 90, 120][i % 3]) }),
+        "own" => json!({ "center": center, "size": sides }),
+        "own speed" if s >= 2 * d => json!({ "center": center, "size": sides, "endVelocity": ([150, 300][i % 2]) }),
+        _ => {
+            let l = d + (random.uniform() * (s - d + 1) as f64) as usize;
+            let scales: Vec<f64> = (0..l).map(|k| if k < d { 30.0 } else { 200.0 }).collect();
+            let mean: Vec<f64> = center.iter().copied().chain(vector(random, l - d, 100.0)).collect();
+            json!({ "mean": mean, "covariance": covariance(random, &scales) })
+        }
+    };
+    destination["id"] = json!(format!("d{i}"));
+    destination["prior"] = json!(prior);
+    destination
+}
+
+fn arrival(random: &mut Random) -> Json {
+    pick(
+        random,
+        &[
+            json!({ "type": "horizon", "from": 0.05, "to": 0.5 }),
+            json!({ "type": "uniform", "from": 0.3, "to": 2.0 }),
+            // nodes that pass during the movement, the last of them at its very end
+            json!({ "type": "uniform", "from": 0.04, "to": 0.400_000_1 }),
+            json!({ "type": "discrete", "times": [0.9, 0.05, 0.4001], "weights": [1, 2, 3] }),
+            json!({ "type": "fitts", "intercept": 0.1, "slope": 0.15, "spread": 0.4 }),
+        ],
+    )
+}
+
+fn scenario(random: &mut Random, seed: u64) -> Json {
+    let d = 1 + (seed % 3) as usize;
+    let coupled = seed % 4 == 3;
+    let (motion, s) = motion(random, d, coupled);
+    let of = pick(random, &["one", "one", "oblong", "few", "own", "own speed", "full"]);
+    let count = pick(random, &[1, 2, 9, 21, 40]);
+    let destinations: Vec<Json> = (0..count).map(|i| destination(random, i, d, s, of)).collect();
+    let points = pick(random, &[3, 15, 17]);
+    json!({
+        "motion": motion,
+        "observation": { "noise": 0.5 + 3.0 * random.uniform() },
+        "arrival": arrival(random),
+        "quadrature": { "rule": "simpson", "points": points },
+        "none": pick(random, &[0.0, 0.0, 0.2]),
+        "destinations": destinations,
+    })
+}
+
+struct Difference {
+    probability: f64,
+    log_likelihood: f64,
+}
+
+/// Runs both over one movement and compares them after every observation.
+fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
+    let scenario = Scenario::from_value(&value(json)).unwrap();
+    let (destinations, model) = (&scenario.destinations, &scenario.observation);
+    let d = scenario.motion.dimensions();
+    let mut velocity = vector(random, d, 800.0);
+    let mut position = vector(random, d, 50.0);
+    let observe = |position: &[f64], random: &mut Random| -> Vec<Option<f64>> {
+        position.iter().map(|x| Some(x + random.normal())).collect()
+    };
+    let first = observe(&position, random);
+    let first = scenario.initial.posterior(model, &model.measurement(&first, None).unwrap()).unwrap();
+    let plan = || scenario.engine.plan(destinations, &first.mean.as_slice()[..d]).unwrap();
+    let mut dense = Movement::begin(&scenario.motion, Method::PseudoObservation, destinations, plan(), first.clone());
+    let mut fast = Telescoped::begin(&scenario.motion, destinations, &plan(), &first, true);
+    let mut posterior = Posterior::default();
+    let (mut found, mut log_found) = (Vec::new(), Vec::new());
+    let variance = model.noise()[(0, 0)];
+    for k in 1..=25 {
+        let step = if k % 6 == 0 { 0.0 } else { 0.016 + 0.001 * random.normal() };
+        if !Plan::is_alive(&dense.plan, dense.elapsed + step) {
+            break;
+        }
+        for axis in 0..d {
+            velocity[axis] += 60.0 * random.normal();
+            position[axis] += step * velocity[axis];
+        }
+        let mut seen = observe(&position, random);
+        let (mut noise, mut variances) = (None, [variance; 3]);
+        match (k % 9, d) {
+            (4, 2..) => seen[1] = None,
+            (5, _) => variances = [9.0, 4.0, 25.0],
+            (8, 2..) if k > 20 && random.uniform() < 0.3 => {
+                noise = Some(DMatrix::from_fn(d, d, |i, j| if i == j { 4.0 } else { 1.0 }));
+            }
+            _ => {}
+        }
+        let diagonal = DMatrix::from_fn(d, d, |i, j| if i == j { variances[i] } else { 0.0 });
+        let measurement = model.measurement(&seen, Some(noise.as_ref().unwrap_or(&diagonal))).unwrap();
+        let elapsed = dense.elapsed + step;
+        dense.advance(destinations, elapsed, &measurement).unwrap();
+        if noise.is_some() && fast.is_separable() {
+            fast.couple(destinations, &plan());
+        }
+        if !fast.advance_separately(elapsed, &seen, &variances) {
+            fast.advance(elapsed, &measurement).unwrap();
+        }
+        posterior.update(&dense, destinations, scenario.none);
+        let none = fast.probabilities(scenario.none, &mut found).unwrap();
+        fast.log_likelihoods(&mut log_found);
+        for (p, expected) in found.iter().chain([&none]).zip(posterior.probabilities.iter().chain([&posterior.none])) {
+            worst.probability = worst.probability.max((p - expected).abs());
+            assert!((p - expected).abs() < 1e-12, "{p:e} {expected:e} after {k} observations of {json}");
+        }
+        for (l, expected) in log_found.iter().zip(&posterior.log_likelihoods) {
+            let difference = (l - expected).abs() / (1.0 + expected.abs());
+            worst.log_likelihood = worst.log_likelihood.max(difference);
+            assert!(difference < 1e-12, "{l} {expected} after {k} observations of {json}");
+        }
+    }
+}
+
+#[test]
+fn it_says_what_the_dense_form_says() {
+    let mut worst = Difference { probability: 0.0, log_likelihood: 0.0 };
+    for seed in 0..36 {
+        let mut random = Random::new(seed);
+        let json = scenario(&mut random, seed);
+        compare(&json, &mut random, &mut worst);
+    }
+    println!(
+        "largest differences: {:e} in probability, {:e} in log likelihood",
+        worst.probability, worst.log_likelihood
+    );
+    assert!(worst.probability > 0.0, "compared with itself");
+}
