@@ -10,6 +10,7 @@
 
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, Gaussian, propagate};
+use crate::model::arrival::MAX_TIME;
 use crate::model::bridge::Bridge;
 use crate::model::motion::{Motion, MotionModel};
 use crate::model::observation::{ObservationModel, read_covariance};
@@ -76,6 +77,16 @@ enum Times {
 
 impl Times {
     fn read(node: &Node<'_>, steps: usize) -> Result<Self> {
+        let times = Self::read_any(node, steps)?;
+        let whole = times.between(0, steps);
+        if whole > MAX_TIME {
+            let must = format!("must be at most 1e12 seconds for all steps, they take {}", number(whole));
+            return Err(node.error(Code::OutOfRange, &must));
+        }
+        Ok(times)
+    }
+
+    fn read_any(node: &Node<'_>, steps: usize) -> Result<Self> {
         match node.value() {
             Value::List(_) => {
                 node.vector(Some(steps))?;

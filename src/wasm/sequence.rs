@@ -2,6 +2,7 @@
 
 use super::{Result, data, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
+use crate::error::Code;
 use crate::value::Node;
 use nalgebra::DMatrix;
 use wasm_bindgen::JsValue;
@@ -39,7 +40,7 @@ impl SequenceEngine {
 
     /// The model of `{ step }`: previous, destination and covariance row by row, and behind them the offset.
     pub fn model(&self, value: JsValue) -> Result<Vec<f64>> {
-        let model = self.sequence.model(step(value)?)?;
+        let model = self.sequence.model(self.step(value)?)?;
         let mut flat = Vec::new();
         for matrix in [&model.previous, &model.destination, &model.covariance] {
             flat.extend(DMatrix::transpose(matrix).iter());
@@ -53,13 +54,13 @@ impl SequenceEngine {
         let value = data::read(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["step", "position"])?;
-        let step = fields.required("step")?.whole(0, u32::MAX as usize)?;
+        let step = self.whole_step(&fields.required("step")?)?;
         Ok(self.sequence.measure(step, &fields.required("position")?.vector(None)?)?)
     }
 
     /// The state at `{ step }`.
     pub fn state(&self, value: JsValue) -> Result<Vec<f64>> {
-        Ok(flat(self.sequence.state(step(value)?)?))
+        Ok(flat(self.sequence.state(self.step(value)?)?))
     }
 
     /// The state at the end.
@@ -93,10 +94,21 @@ impl SequenceEngine {
     }
 }
 
-fn step(value: JsValue) -> crate::Result<usize> {
-    let value = data::read(value)?;
-    let node = Node::root(&value, "");
-    node.fields(&["step"])?.required("step")?.whole(0, u32::MAX as usize)
+impl SequenceEngine {
+    /// `{ step }`.
+    fn step(&self, value: JsValue) -> crate::Result<usize> {
+        let value = data::read(value)?;
+        let node = Node::root(&value, "");
+        self.whole_step(&node.fields(&["step"])?.required("step")?)
+    }
+
+    fn whole_step(&self, node: &Node<'_>) -> crate::Result<usize> {
+        let (x, last) = (node.number()?, self.sequence.steps());
+        if x.fract() == 0.0 && (0.0..=last as f64).contains(&x) {
+            return Ok(x as usize);
+        }
+        Err(node.error(Code::OutOfRange, &format!("must be a whole number from 0 to {last}")))
+    }
 }
 
 fn tolerance(value: JsValue) -> crate::Result<f64> {

@@ -185,10 +185,10 @@ test("sequences", () => {
   sequence.measure(3, [1.8]);
   refuses(() => sequence.measure(2, [1]), "time-not-increasing", "step", "must be at least 3, the last measured step, got 2");
   refuses(() => sequence.measure(21, [1]), "out-of-range", "step", "must be a whole number from 0 to 20, got 21");
-  refuses(() => sequence.measure(4.5, [1]), "out-of-range", "step", "must be a whole number from 0 to 4294967295, got 4.5");
+  refuses(() => sequence.measure(4.5, [1]), "out-of-range", "step", "must be a whole number from 0 to 20, got 4.5");
   refuses(() => sequence.measure(4, [1, 2]), "wrong-length", "position", "must have 1 numbers, has 2");
   refuses(() => sequence.measure(4, [Number.NaN]), "not-finite", "position[0]", "must be a finite number, got NaN");
-  refuses(() => sequence.state(-1), "out-of-range", "step", "must be a whole number from 0 to 4294967295, got -1");
+  refuses(() => sequence.state(-1), "out-of-range", "step", "must be a whole number from 0 to 20, got -1");
   refuses(() => sequence.model(20), "out-of-range", "step", "must be a step between pins, got 20: the states at 0, 20 are drawn first, from their joint density");
   refuses(() => sequence.sample({ seed: 1.5, count: 1 }), "out-of-range", "seed", "must be a whole number from 0 to 4294967295, got 1.5");
   refuses(() => sequence.sample({ seed: 1, count: 1e9 }), "too-large", "count", "must be a whole number from 0 to 238095 for sequences of this length, got 1000000000");

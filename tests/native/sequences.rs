@@ -202,6 +202,12 @@ fn bad_configurations() {
         ("/timeStep", json!(0), "out-of-range", "timeStep: must be greater than 0, got 0"),
         (
             "/timeStep",
+            json!(1e12),
+            "out-of-range",
+            "timeStep: must be at most 1e12 seconds for all steps, they take 10000000000000, got 1000000000000",
+        ),
+        (
+            "/timeStep",
             json!("1 s"),
             "wrong-type",
             "timeStep: must be a number, or a list with the length of each step, got \"1 s\"",

@@ -18,18 +18,9 @@ impl Table {
     }
 
     fn print(&self) {
-        let lines = || std::iter::once(&self.headings).chain(&self.rows);
-        let widths: Vec<usize> = (0..self.headings.len())
-            .map(|j| lines().filter_map(|line| line.get(j)).map(|cell| cell.chars().count()).max().unwrap_or(0))
-            .collect();
-        for (i, line) in lines().enumerate() {
-            let cells: Vec<String> = line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}")).collect();
-            println!("    {}", cells.join("  ").trim_end());
-            if i == 0 {
-                println!("    {}", widths.iter().map(|&width| "-".repeat(width)).collect::<Vec<_>>().join("  "));
-            }
-        }
-        println!();
+        let mut table = comfy_table::Table::new();
+        table.load_preset(comfy_table::presets::UTF8_HORIZONTAL_ONLY).set_header(&self.headings).add_rows(&self.rows);
+        println!("{table}\n");
     }
 
     fn html(&self) -> String {

@@ -1,6 +1,6 @@
 //! Remakes the experiments of the three papers: prints their tables and writes `target/reproduce/index.html`, with each figure
-//! beside what the paper states. `npm run reproduce`, or `cargo run --release --example reproduce -- --quick`.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+//! beside what the paper states. `npm run reproduce`, or `npm run reproduce -- --quick`.
+#![forbid(unsafe_code)]
 
 mod ardeshiri;
 mod gestures;
@@ -11,6 +11,7 @@ mod random;
 mod report;
 mod rezaie_li;
 
+use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
 use std::process::ExitCode;
@@ -25,16 +26,17 @@ pub enum Effort {
     Quick,
 }
 
+/// Remakes the experiments of the three papers and writes target/reproduce/index.html.
+#[derive(Parser)]
+#[command(name = "npm run reproduce --")]
+struct Arguments {
+    /// Fewer tracks and runs: under a minute.
+    #[arg(long)]
+    quick: bool,
+}
+
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let effort = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => Effort::Full,
-        ["--quick"] => Effort::Quick,
-        _ => {
-            eprintln!("usage: reproduce [--quick]");
-            return ExitCode::FAILURE;
-        }
-    };
+    let effort = if Arguments::parse().quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let progress = ProgressBar::new(rezaie_li::work(effort) + liang::work(effort) + ardeshiri::work(effort));
     let style = ProgressStyle::with_template("{bar:30} {percent:>3}% {elapsed} {msg}").expect("the template is legal");
@@ -55,7 +57,7 @@ fn main() -> ExitCode {
          Seeded: every run gives the same numbers, but for the run times.{}",
         if matches!(effort, Effort::Quick) { " This is a quick run with fewer tracks." } else { "" }
     );
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/reproduce");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/reproduce");
     let file = folder.join("index.html");
     if let Err(error) =
         std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&file, report::page(&chapters, &introduction)))
@@ -63,6 +65,6 @@ fn main() -> ExitCode {
         eprintln!("{}: {error}", file.display());
         return ExitCode::FAILURE;
     }
-    println!("{} ({:.0} s)", file.display(), start.elapsed().as_secs_f64());
+    println!("target/reproduce/index.html ({:.0} s)", start.elapsed().as_secs_f64());
     ExitCode::SUCCESS
 }

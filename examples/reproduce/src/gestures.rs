@@ -119,7 +119,7 @@ impl Vibration {
 
 /// Every `every`-th recorded gesture, in metres, if the recordings are there.
 pub fn recorded(every: usize) -> Option<Vec<Gesture>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/fitts3d_midair.jsonl");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/fitts3d_midair.jsonl");
     let text = std::fs::read_to_string(path).ok()?;
     text.lines().step_by(every).map(read).collect()
 }
