@@ -17,7 +17,12 @@ export async function buildDemo() {
       configFile: false,
       base: "./",
       logLevel: "warn",
-      build: { outDir: folder, emptyOutDir: true, target: "es2022" },
+      build: {
+        outDir: folder,
+        emptyOutDir: true,
+        target: "es2022",
+        rollupOptions: { input: ["index.html", "sequences/index.html"].map((page) => join(root, "www", page)) },
+      },
     });
   });
 }

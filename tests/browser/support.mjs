@@ -12,8 +12,11 @@ export function serve(policy = POLICY) {
   return serveFolder(folder, { path: "/some/where/", headers: { "content-security-policy": policy } });
 }
 
+/** The car's screen: ready once it believes something. */
+const SCREEN = { path: "", ready: () => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed };
+
 /** A page that is ready, with everything that it must not do collected in `sins`. */
-export async function open(browser, url, options = {}) {
+export async function open(browser, url, options = {}, { path, ready } = SCREEN) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const page = await context.newPage();
   const sins = [];
@@ -28,8 +31,8 @@ export async function open(browser, url, options = {}) {
   page.on("response", (response) => {
     if (response.status() >= 400) sins.push(`${response.status()}: ${response.url()}`);
   });
-  await page.goto(url);
-  await page.waitForFunction(() => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed);
+  await page.goto(url + path);
+  await page.waitForFunction(ready);
   return { page, sins, close: () => context.close() };
 }
 

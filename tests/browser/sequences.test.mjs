@@ -1,0 +1,141 @@
+// The page of the conditionally Markov sequences.
+import assert from "node:assert/strict";
+import { after, before, describe, it } from "node:test";
+import { launch, open, serve } from "./support.mjs";
+
+const SEQUENCES = {
+  path: "sequences/index.html",
+  ready: () => document.querySelector("#kind").textContent !== "–" || document.documentElement.dataset.failed,
+};
+
+/** The facts, after the next frame. */
+function facts(page) {
+  return page.evaluate(async () => {
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    const text = (id) => document.querySelector(`#${id}`).textContent;
+    return Object.fromEntries(["so-far", "deviation", "markov-deviation", "error", "markov-error", "kind", "status"].map((id) => [id, text(id)]));
+  });
+}
+
+/** What the canvas shows, as a picture in text: another one for any other drawing. */
+function drawing(page) {
+  return page.evaluate(() => document.querySelector("#canvas").toDataURL());
+}
+
+/** The share of the canvas that is drawn on. */
+function inked(page) {
+  return page.evaluate(() => {
+    const canvas = document.querySelector("#canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value > 0).length / (data.length / 4);
+  });
+}
+
+function metres(text) {
+  const [number, unit] = text.split(" ");
+  return Number(number) * (unit === "km" ? 1000 : 1);
+}
+
+describe("the page of the sequences", () => {
+  let browser;
+  let server;
+  before(async () => {
+    [browser, server] = await Promise.all([launch(), serve()]);
+  });
+  after(() => Promise.all([browser.close(), server.close()]));
+  const opened = (options) => open(browser, server.url, options, SEQUENCES);
+
+  it("shows the paper's figure and what is predicted after nine measurements", async () => {
+    const { page, sins, close } = await opened();
+    const share = await inked(page);
+    assert.ok(share > 0.02, `${share} of the map is drawn on`);
+    const found = await facts(page);
+    assert.equal(found["so-far"], "9 of 100");
+    assert.equal(found.deviation, "32 m"); // the paper's C_N: nine measurements say nothing of 30 m in 128 km
+    assert.ok(metres(found["markov-deviation"]) > 1000, found["markov-deviation"]);
+    assert.equal(found.kind, "reciprocal, not Markov");
+    assert.match(found.status, /^After 9 measurements the landing place is known to 32 m; /);
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  it("takes a waypoint from the mouse and from the keyboard, and gives it back", async () => {
+    const { page, sins, close } = await opened();
+    const before = await drawing(page);
+    const { x, y, width, height } = await page.locator("#waypoint").boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 40, y + height / 2 + 30, { steps: 4 });
+    await page.mouse.up();
+    assert.equal((await facts(page)).kind, "not reciprocal");
+    const dragged = await drawing(page);
+    assert.ok(dragged !== before);
+    const label = await page.locator("#waypoint").getAttribute("aria-label");
+    assert.match(label, /^Waypoint at \d+ km east, \d+ km north$/);
+    await page.locator("#waypoint").press("ArrowRight");
+    await facts(page);
+    assert.notEqual(await page.locator("#waypoint").getAttribute("aria-label"), label);
+    await page.locator("#remove").click();
+    assert.equal((await facts(page)).kind, "reciprocal, not Markov");
+    assert.ok((await drawing(page)) === before);
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  it("predicts better as measurements arrive", async () => {
+    const { page, sins, close } = await opened();
+    await page.locator("[name=destination]").fill("3.4");
+    await page.locator("#measured").fill("5");
+    const early = metres((await facts(page)).deviation);
+    await page.locator("#measured").fill("95");
+    const late = metres((await facts(page)).deviation);
+    assert.ok(early > 2000 && late < 400, `${early} m, then ${late} m`);
+    await page.locator("#measured").fill("0");
+    await page.locator("#play").click();
+    await page.waitForFunction(() => Number.parseInt(document.querySelector("#so-far").textContent, 10) >= 3);
+    await page.locator("#play").click();
+    const paused = (await facts(page))["so-far"];
+    await page.waitForTimeout(300);
+    assert.equal((await facts(page))["so-far"], paused);
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  it("follows what is set, and goes back to the paper's values", async () => {
+    const { page, sins, close } = await opened();
+    const paper = await drawing(page);
+    for (const [name, value] of [["noise", "-2.5"], ["origin", "3.4"], ["destination", "3.4"], ["correlation", "0.9"]]) {
+      const before = await drawing(page);
+      await page.locator(`[name=${name}]`).fill(value);
+      await facts(page);
+      assert.ok((await drawing(page)) !== before, name);
+    }
+    await page.locator("#paper").click();
+    await facts(page);
+    assert.ok((await drawing(page)) === paper);
+    await page.locator("#another").click();
+    await facts(page);
+    assert.ok((await drawing(page)) !== paper);
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  for (const width of [360, 900, 1280, 2560]) {
+    it(`fits ${width} px`, async () => {
+      const { page, sins, close } = await opened({ viewport: { width, height: 800 } });
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      assert.deepEqual(sins, []);
+      await close();
+    });
+  }
+
+  it("is reached from the first page, and leads back", async () => {
+    const { page, sins, close } = await open(browser, server.url);
+    await page.locator('a[href$="sequences/index.html"]').first().click();
+    await page.waitForFunction(SEQUENCES.ready);
+    await page.locator(".name a").click();
+    await page.waitForSelector("button[data-destination]");
+    assert.deepEqual(sins, []);
+    await close();
+  });
+});

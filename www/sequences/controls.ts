@@ -1,0 +1,49 @@
+/** The sliders of the model; spreads and noise are set on logarithmic scales. */
+import type { Settings } from "./airliner.ts";
+import { length } from "./length.ts";
+
+type Sliders = Omit<Settings, "waypoint">;
+
+export class Controls {
+  readonly #form: HTMLFormElement;
+
+  constructor(form: HTMLFormElement, initial: Sliders, changed: (settings: Sliders) => void) {
+    this.#form = form;
+    this.set(initial);
+    form.addEventListener("input", () => {
+      this.#show();
+      changed(this.#read());
+    });
+    form.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  set({ noise, origin, destination, correlation }: Sliders): void {
+    this.#field("noise").value = String(Math.log10(noise));
+    this.#field("origin").value = String(Math.log10(origin));
+    this.#field("destination").value = String(Math.log10(destination));
+    this.#field("correlation").value = String(correlation);
+    this.#show();
+  }
+
+  #field(name: string): HTMLInputElement | HTMLOutputElement {
+    return this.#form.elements.namedItem(name) as HTMLInputElement | HTMLOutputElement;
+  }
+
+  #read(): Sliders {
+    const number = (name: string) => Number(this.#field(name).value);
+    return {
+      noise: 10 ** number("noise"),
+      origin: 10 ** number("origin"),
+      destination: 10 ** number("destination"),
+      correlation: number("correlation"),
+    };
+  }
+
+  #show(): void {
+    const { noise, origin, destination, correlation } = this.#read();
+    this.#field("noiseShown").value = String(Number(noise.toPrecision(2)));
+    this.#field("originShown").value = length(origin);
+    this.#field("destinationShown").value = length(destination);
+    this.#field("correlationShown").value = correlation.toFixed(2);
+  }
+}
