@@ -85,14 +85,14 @@ fn figure1() -> Exhibit {
     for (place, (label, sequence, stroke)) in
         [("Markov", markov(), Stroke::Dashed), ("CM_L", directed(), Stroke::Solid)].into_iter().enumerate()
     {
-        let drawn = sequence.sample(1, 50).expect("50 sequences of 101 states are not too many");
+        let drawn = sequence.sample(1, 1000).expect("1000 sequences of 101 states are not too many");
         // both axes have the same variance
         let spread = |at: usize| -> f64 {
             let middle = mean(drawn.iter().map(|x| x[at]));
             drawn.iter().map(|x| (x[at] - middle).powi(2)).sum()
         };
-        ends[place] = ((spread(400) + spread(401)) / (2.0 * 49.0)).sqrt();
-        for trajectory in drawn {
+        ends[place] = ((spread(400) + spread(401)) / (2.0 * 999.0)).sqrt();
+        for trajectory in &drawn[..50] {
             let points = trajectory.chunks(4).map(|x| (x[0] / 1000.0, x[1] / 1000.0));
             let colour = COLOURS[1 - place];
             series.push(Series::new(label, colour, points).stroke(stroke).thin(0.65));
