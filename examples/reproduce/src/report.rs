@@ -19,7 +19,7 @@ impl Table {
 
     fn print(&self) {
         let mut table = comfy_table::Table::new();
-        table.load_preset(comfy_table::presets::UTF8_HORIZONTAL_ONLY).set_header(&self.headings).add_rows(&self.rows);
+        table.load_style(comfy_table::presets::ASCII_MARKDOWN).set_header(&self.headings).add_rows(&self.rows);
         println!("{table}\n");
     }
 
