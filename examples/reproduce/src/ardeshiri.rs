@@ -86,7 +86,7 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
     let mut exhibit = Exhibit {
         title: "Figure 1: posteriors of 21 destinations over one gesture".into(),
         figures: vec![chart(&panels, 1, (760, 300))],
-        caption: format!("Top: the exact formulation, bottom: the approximation. Below: over all {} gestures.", gestures.len()),
+        caption: format!("Top: the exact formulation, bottom: the approximation. The numbers are over {} gestures, but for the largest difference.", gestures.len()),
         paper: "Over 50 recorded gestures both formulations gave identical classification results at every observation. In the figure the \
                 distributions at each time differ marginally."
             .into(),

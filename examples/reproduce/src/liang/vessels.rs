@@ -244,6 +244,9 @@ fn figure2(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
         decibels(median((0..sums.len()).filter(|&k| counts[k] >= 5.0).map(|k| sums[k][pair] / counts[k]).collect()))
     };
     let mut exhibit = Exhibit {
+        caption: "From 80 min on an arrival time passes every five minutes. Just before it passes, a prediction is drawn to an end that most \
+                  tracks are not near, and there the formulations differ most."
+            .into(),
         title: format!("Figure 2: Bhattacharyya distance between the prediction errors, {} tracks", vessels.len()),
         figures: vec![chart(
             &[Panel { title: String::new(), x: ("time (min)", 0.0..150.0), y: ("distance (dB)", -200.0..0.0), legend: Corner::MiddleRight, series }],
