@@ -7,7 +7,7 @@
 //! F = exp(A h)      B(h) = int_0^h exp(A u) B du      Q(h) = int_0^h exp(A u) W exp(A' u) du
 //! ```
 //!
-//! Source: a model of the Ornstein-Uhlenbeck type as in Liang's [13], Ahmad et al., "Bayesian intent prediction in object
+//! Source: a model of the Ornstein-Uhlenbeck type as in Liang's \[13\], Ahmad et al., "Bayesian intent prediction in object
 //! tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 //!
 //! The closed forms differ between the underdamped, critical and overdamped spring, and each of them cancels somewhere

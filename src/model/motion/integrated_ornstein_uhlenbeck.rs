@@ -8,7 +8,7 @@
 //!                                | (1 - e^-x)^2 / (2 damping^2)                      (1 - e^-2x) / (2 damping) |
 //! ```
 //!
-//! Source: Liang's [7], Millefiori et al., "Modeling vessel kinematics using a stochastic mean-reverting process for
+//! Source: Liang's \[7\], Millefiori et al., "Modeling vessel kinematics using a stochastic mean-reverting process for
 //! long-term prediction", IEEE Transactions on Aerospace and Electronic Systems 52 (2016). Without damping it is
 //! `constantVelocity`. The quotients come from [`math::decay`](crate::math::decay), exact for small `x`.
 

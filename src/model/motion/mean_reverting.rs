@@ -4,7 +4,7 @@
 //! dx = rate (c - x) dt + dw        F = e^-rh      B = 1 - e^-rh      Q = noise^2 (1 - e^-2rh) / (2 r),   r = rate
 //! ```
 //!
-//! Source: Liang et al., after (1) (the Ornstein-Uhlenbeck process), and their [13], Ahmad et al., "Bayesian intent
+//! Source: Liang et al., after (1) (the Ornstein-Uhlenbeck process), and their \[13\], Ahmad et al., "Bayesian intent
 //! prediction in object tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 
 use super::{AxisTransition, MotionModel, axis_value};
