@@ -147,6 +147,34 @@ fn the_airliners_error_ratio_is_the_papers() {
     assert!((340.0..390.0).contains(&ratio), "{ratio}");
 }
 
+#[test]
+fn the_longest_sequence() {
+    // 100 000 steps of lengths that alternate between 1 s and 3 s, from 0 to 200 km at 1 m/s
+    let steps = 100_000;
+    let lengths: Vec<f64> = (0..steps).map(|k| if k % 2 == 0 { 1.0 } else { 3.0 }).collect();
+    let mut sequence = sequence(&json!({
+        "motion": { "type": "constantVelocity", "dimensions": 1, "noise": 1e-3 }, "timeStep": lengths, "steps": steps,
+        "pinnedMean": [0, 1, 200_000, 1], "observation": { "noise": 10 },
+        "pinnedCovariance": [[100, 0, 0, 0], [0, 0.01, 0, 0], [0, 0, 100, 0], [0, 0, 0, 0.01]],
+    }));
+    assert!(sequence.is_reciprocal(DEFAULT_TOLERANCE).unwrap());
+    assert!(!sequence.is_markov(DEFAULT_TOLERANCE).unwrap());
+    for step in [1, 50_000, 99_998] {
+        sequence.measure(step, &[2.0 * step as f64]).unwrap();
+        let state = sequence.state(step).unwrap();
+        assert!((state.mean[0] - 2.0 * step as f64).abs() < 20.0, "{step}: {}", state.mean[0]);
+        assert!(state.covariance[(0, 0)] < 100.0);
+    }
+    // half of the way is done in half of the time, and the end is where it was said to be
+    assert!((sequence.state(50_000).unwrap().mean[1] - 1.0).abs() < 0.3);
+    assert!((sequence.destination().mean[0] - 200_000.0).abs() < 20.0);
+    let drawn = sequence.sample(1, 1).unwrap();
+    assert_eq!(drawn[0].len(), 2 * (steps + 1));
+    assert!((drawn[0][2 * steps] - 200_000.0).abs() < 50.0);
+    // no step of the drawn movement is longer than its velocity allows
+    assert!(drawn[0].windows(3).step_by(2).all(|x| (x[2] - x[0]).abs() < 3.0 * (x[1].abs() + 1.0)));
+}
+
 fn good() -> Json {
     json!({
         "motion": { "type": "constantVelocity", "dimensions": 1, "noise": 1 }, "timeStep": 1, "steps": 10,
