@@ -3,6 +3,12 @@
 use std::fmt;
 
 /// What kind of thing is wrong. The strings of [`Code::as_str`] are part of the interface.
+///
+/// ```
+/// use whither::{Code, Scenario, Value};
+/// let error = Scenario::from_value(&Value::map([("speed", Value::Number(3.0))])).unwrap_err();
+/// assert_eq!((error.code(), error.path()), (Code::UnknownKey, "speed"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Code {
@@ -88,6 +94,15 @@ pub struct Error {
 }
 
 /// What everything here that can fail returns.
+///
+/// ```
+/// use whither::{Code, Result, Value, value::Node};
+/// fn half(node: &Node<'_>) -> Result<f64> {
+///     Ok(node.positive()? / 2.0)
+/// }
+/// assert_eq!(half(&Node::root(&Value::Number(3.0), "size")), Ok(1.5));
+/// assert_eq!(half(&Node::root(&Value::Number(-3.0), "size")).unwrap_err().code(), Code::OutOfRange);
+/// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {

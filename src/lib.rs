@@ -73,7 +73,7 @@
 //! | Liang (2) | observation | [`model::observation`] |
 //! | Liang (3) | posterior of the destinations | [`posterior::Posterior::update`] |
 //! | Liang (4) | the pseudo-observation of the endpoint | [`model::destination`] |
-//! | Liang (5) | likelihood given the arrival time | [`likelihood::Likelihood`] |
+//! | Liang (5) | likelihood given the arrival time | [`likelihood`] |
 //! | Liang (6), Ardeshiri (17) | sum over the arrival time | [`model::arrival`], [`math::quadrature`] |
 //! | Liang (7)-(11) | Algorithm 1 | [`likelihood::algorithm1`] |
 //! | Liang (8) | Kalman prediction | [`math::kalman::Filter::predict`] |

@@ -5,6 +5,14 @@ use crate::scenario::Scenario;
 use crate::value::Value;
 
 /// A target on the screen: an icon, a button, a link.
+///
+/// ```
+/// use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+/// let target = PointerTarget { id: "map".to_owned(), x: 700.0, y: 300.0, width: 96.0, height: 48.0 };
+/// let scenario = pointer_scenario(&[target], PointerOptions::default()).unwrap();
+/// assert_eq!(scenario.destinations.center(0), [700.0, 300.0]);
+/// assert_eq!(scenario.destinations.kind(0).covariance[(1, 1)], 192.0); // 48^2 / 12
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointerTarget {
     /// Its name, unique among the targets.
@@ -20,6 +28,14 @@ pub struct PointerTarget {
 }
 
 /// What an application may want to set.
+///
+/// ```
+/// use whither::{Predictor, pointer::{PointerOptions, PointerTarget, pointer_scenario}};
+/// let target = |id: &str, x| PointerTarget { id: id.to_owned(), x, y: 0.0, width: 90.0, height: 90.0 };
+/// let targets = [target("radio", 0.0), target("map", 500.0)];
+/// let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.5 }).unwrap()).unwrap();
+/// assert_eq!((predictor.none(), predictor.probabilities()), (0.5, &[0.25, 0.25][..]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointerOptions {
     /// The prior probability that the pointer is going to none of the targets.

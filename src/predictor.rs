@@ -16,6 +16,21 @@ use track::Observed;
 pub(crate) use track::Track;
 
 /// The most probable destination.
+///
+/// ```
+/// use whither::{Predictor, Scenario};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
+///     "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [9], "size": 1, "prior": 3 }]
+/// }"#).unwrap();
+/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// assert_eq!(predictor.best(), None);
+/// predictor.observe(0.0, &[4.5]).unwrap(); // where it began says nothing: the priors stand
+/// let best = predictor.best().unwrap();
+/// assert_eq!((best.index, best.id.as_str()), (1, "b"));
+/// assert!((best.probability - 0.75).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Best {
     /// Its place in the order of the destinations.
@@ -27,6 +42,19 @@ pub struct Best {
 }
 
 /// The time that is left, in seconds.
+///
+/// ```
+/// use whither::{Predictor, Scenario};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "discrete", "times": [4], "weights": [1] },
+///     "destinations": [{ "id": "there", "center": [9], "size": 1 }]
+/// }"#).unwrap();
+/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// predictor.observe(10.0, &[0.0]).unwrap();
+/// predictor.observe(11.0, &[2.0]).unwrap();
+/// assert!((predictor.remaining().unwrap().mean - 3.0).abs() < 1e-12); // 4 seconds from the first observation
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remaining {
     /// The expected time to go.

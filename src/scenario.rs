@@ -35,6 +35,19 @@ const KEYS: [&str; 9] =
 const MOST_NUMBERS: u64 = 1 << 27;
 
 /// Everything that a predictor is made from.
+///
+/// ```
+/// use whither::Scenario;
+/// let value = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
+///     "destinations": [{ "id": "there", "center": [9], "size": 1 }]
+/// }"#).unwrap();
+/// let scenario = Scenario::from_value(&value).unwrap();
+/// assert_eq!((scenario.none, scenario.destinations.id(0)), (0.0, "there")); // it goes nowhere else unless told
+/// let again = Scenario::from_value(&scenario.to_value()).unwrap();
+/// assert_eq!(again.to_value(), scenario.to_value());
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scenario {
     /// How the object moves.
@@ -52,6 +65,17 @@ pub struct Scenario {
 }
 
 /// Which predictor, and what only it needs.
+///
+/// ```
+/// use whither::{Scenario, likelihood::Method, scenario::Engine};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
+///     "destinations": [{ "id": "there", "center": [9], "size": 1 }]
+/// }"#).unwrap();
+/// let Engine::Papers { method, quadrature, .. } = scenario.engine else { panic!() };
+/// assert_eq!((method, quadrature.points()), (Method::PseudoObservation, 15)); // unless others are asked for
+/// ```
 #[derive(Clone, Debug)]
 pub enum Engine {
     /// A method of the papers.

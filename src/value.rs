@@ -14,6 +14,13 @@ mod serial;
 pub const LARGEST: f64 = 1e50;
 
 /// What JSON can say, with NaN and infinities left in, so that they can be refused by name.
+///
+/// ```
+/// use whither::Value;
+/// let value: Value = serde_json::from_str(r#"{ "id": "map", "center": [1.5, 2] }"#).unwrap();
+/// assert_eq!(value, Value::map([("id", Value::text("map")), ("center", Value::numbers(&[1.5, 2.0]))]));
+/// assert_eq!(Value::Number(f64::NAN).quoted(), "NaN");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `null` or `undefined`.
@@ -143,6 +150,14 @@ enum Step<'a> {
 }
 
 /// A value and where it stands.
+///
+/// ```
+/// use whither::{Value, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "center": [1.5, "two"] }"#).unwrap();
+/// let root = Node::root(&value, "destinations[3]");
+/// let error = root.get("center").unwrap().vector(Some(2)).unwrap_err();
+/// assert_eq!(error.to_string(), "destinations[3].center[1]: must be a number, got \"two\"");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Node<'a> {
     value: &'a Value,
@@ -399,6 +414,16 @@ impl<'a> Node<'a> {
 }
 
 /// An object whose keys have been checked.
+///
+/// ```
+/// use whither::{Value, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "noise": 3, "matrix": null }"#).unwrap();
+/// let root = Node::root(&value, "observation");
+/// let fields = root.fields(&["noise", "matrix"]).unwrap();
+/// assert_eq!(fields.required("noise").unwrap().number(), Ok(3.0));
+/// assert!(fields.optional("matrix").is_none()); // null counts as absent
+/// assert_eq!(root.fields(&["noise"]).unwrap_err().path(), "observation.matrix");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
     entries: &'a [(String, Value)],

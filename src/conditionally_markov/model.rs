@@ -25,6 +25,17 @@ const MAX_STATES: usize = 64;
 
 /// One step of the sequence, `x_k = previous x_{k-1} + destination x_p + offset + e`, `e ~ N(0, covariance)`, towards the
 /// next pinned state `x_p`.
+///
+/// ```
+/// use whither::{ConditionallyMarkovSequence, Value};
+/// // a Brownian bridge over 4 steps: the first goes a quarter of the way
+/// let value: Value = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "timeStep": 1, "steps": 4,
+///     "pinnedMean": [0, 8], "pinnedCovariance": [[1, 0], [0, 1]], "observation": { "noise": 1 }
+/// }"#).unwrap();
+/// let step = ConditionallyMarkovSequence::new(&value).unwrap().model(1).unwrap();
+/// assert!((step.previous[(0, 0)] - 0.75).abs() < 1e-14 && (step.destination[(0, 0)] - 0.25).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepModel {
     /// `G_{k,k-1}`, `s` by `s`; (7).

@@ -2,6 +2,22 @@
 //!
 //! The prediction of `x_k` is conditioned on the pseudo-observation `a_i` of `x_T`, (10), and the observation's density
 //! under it, (11), is multiplied into the likelihood of each destination and node.
+//!
+//! ```
+//! use whither::{Predictor, Scenario};
+//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! let scenario: Scenario = serde_json::from_str(r#"{
+//!     "method": "algorithm1", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+//!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+//!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+//! }"#).unwrap();
+//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! predictor.observe(0.0, &[0.0]).unwrap();
+//! predictor.observe(1.0, &[1.0]).unwrap();
+//! // (10): x_2 ~ N(0, 2) becomes N(4/3, 4/3); (11): y_2 = 1 is of N(4/3, 7/3)
+//! let expected = -0.5 * (14.0 / 3.0 * std::f64::consts::PI).ln() - 1.0 / 42.0;
+//! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
+//! ```
 
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
@@ -11,7 +27,7 @@ use crate::value::{Node, Value};
 
 /// The engine: log likelihoods for each destination and node.
 #[derive(Clone, Debug, Default)]
-pub struct Algorithm1 {
+pub(crate) struct Algorithm1 {
     table: Vec<f64>,
 }
 

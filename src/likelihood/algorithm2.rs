@@ -5,6 +5,22 @@
 //!
 //! The printed (13) has `F(h) mu - M(h)` where the prediction of `x_k` is `F(h) mu + M(h)`. With the printed sign
 //! Algorithm 2 contradicts Algorithm 1 whenever `M` is not zero; here it is put right (`tests/native/errata.rs` shows both).
+//!
+//! ```
+//! use whither::{Predictor, Scenario};
+//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! let scenario: Scenario = serde_json::from_str(r#"{
+//!     "method": "algorithm2", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+//!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+//!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+//! }"#).unwrap();
+//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! predictor.observe(0.0, &[0.0]).unwrap();
+//! predictor.observe(1.0, &[1.0]).unwrap();
+//! // (12): x_1 ~ N(0, 1) becomes N(2/3, 5/6); (13): x_2 = (4 x_1 + 4) / 5 + N(0, 4/5), so y_2 = 1 is of N(4/3, 7/3)
+//! let expected = -0.5 * (14.0 / 3.0 * std::f64::consts::PI).ln() - 1.0 / 42.0;
+//! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
+//! ```
 
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
@@ -15,7 +31,7 @@ use nalgebra::DVector;
 
 /// The engine: log likelihoods for each destination and node.
 #[derive(Clone, Debug, Default)]
-pub struct Algorithm2 {
+pub(crate) struct Algorithm2 {
     table: Vec<f64>,
 }
 

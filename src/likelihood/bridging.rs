@@ -3,6 +3,22 @@
 //! The endpoint `z = G~ x_T ~ N(a_i, S_i)` is independent of `x_1`, and the state moves towards it by the bridged
 //! transition of [`crate::model::bridge`]. For each destination and arrival time one Kalman filter runs on `[x_k; z]`; its
 //! evidence is the likelihood. Covariances and gains are the same for all destinations of a kind, so they are kept once.
+//!
+//! ```
+//! use whither::{Predictor, Scenario};
+//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! let scenario: Scenario = serde_json::from_str(r#"{
+//!     "method": "bridging", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+//!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+//!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+//! }"#).unwrap();
+//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! predictor.observe(0.0, &[0.0]).unwrap();
+//! predictor.observe(1.0, &[1.0]).unwrap();
+//! // the bridge goes half of the way, with the variance 1/2: x_2 ~ N(2, 1/4 + 3/4 + 1/2), so y_2 = 1 is of N(2, 5/2)
+//! let expected = -0.5 * (5.0 * std::f64::consts::PI).ln() - 0.2;
+//! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
+//! ```
 
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
@@ -13,7 +29,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// The engine: a covariance for each group and node, a mean and a log evidence for each destination and node.
 #[derive(Clone, Debug, Default)]
-pub struct Bridging {
+pub(crate) struct Bridging {
     /// `s + l` square, one for each group and node.
     covariances: Vec<DMatrix<f64>>,
     /// `[x_k; z]` for each destination and node, `2 s` numbers apart.

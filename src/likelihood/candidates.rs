@@ -16,6 +16,22 @@ use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// The movement under one noise candidate.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::{Gaussian, Scenario, likelihood::{candidates::Movement, plan::Plan}, scenario::Engine};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": { "candidates": [1, 9], "weights": [1, 3] } }, "observation": { "noise": 1 },
+///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+/// }"#).unwrap();
+/// let Engine::Papers { method, arrival, quadrature } = &scenario.engine else { panic!() };
+/// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
+/// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
+/// let movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);
+/// assert!((movement.worlds[0].log_weight - 0.25f64.ln()).abs() < 1e-14);
+/// assert_eq!(movement.worlds[1].model.transition(2.0).noise[(0, 0)], 162.0); // 9^2 * 2
+/// ```
 #[derive(Debug)]
 pub struct World {
     /// `ln w_c`.
@@ -39,6 +55,24 @@ impl Clone for World {
 }
 
 /// A movement so far.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::{Gaussian, Scenario, likelihood::{candidates::Movement, plan::Plan}, scenario::Engine};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+/// }"#).unwrap();
+/// let Engine::Papers { method, arrival, quadrature } = &scenario.engine else { panic!() };
+/// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
+/// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
+/// let mut movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);
+/// let measurement = scenario.observation.measurement(&[Some(3.0)], None).unwrap();
+/// movement.advance(&scenario.destinations, 1.0, &measurement).unwrap();
+/// // N(0, 1) has become N(0, 2); of 3, seen with the variance 1, two thirds are believed
+/// assert!((movement.worlds[0].filter.mean(0)[0] - 2.0).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Movement {
     /// The arrival nodes.

@@ -33,6 +33,13 @@ use plan::{Group, Plan};
 use std::fmt::Debug;
 
 /// The six methods of the papers.
+///
+/// ```
+/// use whither::likelihood::Method;
+/// assert_eq!(Method::SingleFilter.name(), "singleFilter");
+/// let accumulating = Method::NAMES.iter().filter(|(_, method)| method.accumulates());
+/// assert!(accumulating.map(|(name, _)| *name).eq(["algorithm1", "algorithm2", "bridging"]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The telescoped form of Liang's prediction errors: one filter, then two densities for each destination and node.
@@ -74,7 +81,7 @@ impl Method {
 
     /// The engine.
     #[must_use]
-    pub fn engine(self) -> Box<dyn Likelihood> {
+    pub(crate) fn engine(self) -> Box<dyn Likelihood> {
         match self {
             Self::PseudoObservation => Box::new(pseudo_observation::PseudoObservation),
             Self::Algorithm1 => Box::<algorithm1::Algorithm1>::default(),
@@ -88,7 +95,7 @@ impl Method {
 
 /// What an engine sees: the models, the destinations with their nodes, and the filter now.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
+pub(crate) struct Scene<'a> {
     /// The motion model.
     pub motion: &'a dyn MotionModel,
     /// The destinations.
@@ -105,7 +112,7 @@ pub struct Scene<'a> {
 
 /// One step from `t_{k-1}` to `t_k`, for the methods that accumulate.
 #[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
+pub(crate) struct Step<'a> {
     /// The posterior at `t_{k-1}`.
     pub before: &'a Filter,
     /// The prediction for `t_k`, before the correction.
@@ -119,7 +126,7 @@ pub struct Step<'a> {
 }
 
 /// An engine: turns a movement so far into `log p(y_2:k | y_1, D_i, T_n)`.
-pub trait Likelihood: Debug + Send + Sync {
+pub(crate) trait Likelihood: Debug + Send + Sync {
     /// Begins a movement at its first observation.
     fn begin(&mut self, _scene: &Scene<'_>) {}
 

@@ -5,6 +5,19 @@ use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
 
 /// Destinations that have both the arrival nodes and the kind of endpoint in common: every matrix serves all of them.
+///
+/// ```
+/// use whither::{Value, likelihood::plan::Plan, math::quadrature::Quadrature};
+/// use whither::{model::{arrival::Arrival, destination::Destinations}, value::Node};
+/// let value: Value = serde_json::from_str(r#"[
+///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 24 }
+/// ]"#).unwrap();
+/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
+/// let plan = Plan::new(&destinations, &Arrival::Uniform { from: 1.0, to: 2.0 }, &Quadrature::default(), &[0.0]);
+/// // two sizes, so two kinds, at the same times
+/// assert_eq!((plan.grids.len(), plan.groups.len()), (1, 2));
+/// assert_eq!((plan.groups[1].kind, &plan.groups[1].members[..]), (1, &[1][..]));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Group {
     /// Which grid of nodes.
@@ -16,6 +29,20 @@ pub struct Group {
 }
 
 /// The arrival nodes of all destinations. Times count from the first observation, or from now for a `horizon`.
+///
+/// ```
+/// use whither::{Value, likelihood::plan::Plan, math::quadrature::Quadrature};
+/// use whither::{model::{arrival::Arrival, destination::Destinations}, value::Node};
+/// let value: Value = serde_json::from_str(r#"[
+///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 12, "prior": 3 }
+/// ]"#).unwrap();
+/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
+/// let arrival = Arrival::Uniform { from: 1.0, to: 2.0 };
+/// let plan = Plan::new(&destinations, &arrival, &Quadrature::Trapezoid { points: 3 }, &[0.0]);
+/// assert_eq!(plan.grid(1).times, [1.0, 1.5, 2.0]);
+/// assert_eq!(plan.rows, [0, 3, 6]);
+/// assert!(plan.is_alive(1.9) && !plan.is_alive(2.1));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The distinct grids.

@@ -7,6 +7,22 @@
 //! ```
 //! with `m, P` the Kalman posterior: each factor of (11) is the ratio of two such densities, by (7). Nothing accumulates for
 //! a destination or a node, so both may change at any time.
+//!
+//! ```
+//! use whither::{Predictor, Scenario};
+//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! let scenario: Scenario = serde_json::from_str(r#"{
+//!     "method": "pseudoObservation", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+//!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+//!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+//! }"#).unwrap();
+//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! predictor.observe(0.0, &[0.0]).unwrap();
+//! predictor.observe(1.0, &[1.0]).unwrap();
+//! // ln N(1; 0, 3) + ln N(4; 2/3, 14/3) - ln N(4; 0, 6), which is ln N(1; 4/3, 7/3), as of algorithm1
+//! let expected = -0.5 * (14.0 / 3.0 * std::f64::consts::PI).ln() - 1.0 / 42.0;
+//! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-12);
+//! ```
 
 use super::{Likelihood, Scene};
 use crate::math::gaussian::{Factor, propagate};
@@ -14,7 +30,7 @@ use crate::model::endpoint::Endpoint;
 
 /// The engine; it keeps nothing.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct PseudoObservation;
+pub(crate) struct PseudoObservation;
 
 impl Likelihood for PseudoObservation {
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {

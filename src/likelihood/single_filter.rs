@@ -9,6 +9,22 @@
 //! `x_1` nearly cancel early on. (15) takes the denominator `f(z | x_1)` as constant.
 //!
 //! Table 1, line 12 of the paper prints `(I - K) P` for the corrected covariance; it is `(I - K C) P`, here in Joseph's form.
+//!
+//! ```
+//! use whither::{Predictor, Scenario};
+//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! let scenario: Scenario = serde_json::from_str(r#"{
+//!     "method": "singleFilter", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+//!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+//!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+//! }"#).unwrap();
+//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! predictor.observe(0.0, &[0.0]).unwrap();
+//! predictor.observe(1.0, &[1.0]).unwrap();
+//! // (12) is what the bridge says: y_2 = 1 is of N(2, 5/2)
+//! let expected = -0.5 * (5.0 * std::f64::consts::PI).ln() - 0.2;
+//! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
+//! ```
 
 use super::{Likelihood, Scene};
 use crate::math::gaussian::{Factor, LN_2_PI, propagate};
@@ -17,11 +33,11 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// The exact engine, (12); it keeps nothing beyond the filter.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct SingleFilter;
+pub(crate) struct SingleFilter;
 
 /// The approximate engine, (15); it keeps nothing beyond the filter.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct SingleFilterApproximate;
+pub(crate) struct SingleFilterApproximate;
 
 impl Likelihood for SingleFilterApproximate {
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {

@@ -9,6 +9,16 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 pub const LN_2_PI: f64 = 1.837_877_066_409_345_6;
 
 /// A Gaussian over a vector: mean and covariance.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::math::gaussian::{Gaussian, condition};
+/// let prior = Gaussian { mean: dvector![0.0], covariance: dmatrix![4.0] };
+/// // 5 is observed, with the variance 1
+/// let seen = condition(&prior.covariance, &dmatrix![1.0], &dmatrix![1.0]).unwrap();
+/// let posterior = Gaussian { mean: seen.gain * dvector![5.0], covariance: seen.covariance };
+/// assert!((posterior.mean[0] - 4.0).abs() < 1e-14 && (posterior.covariance[(0, 0)] - 0.8).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gaussian {
     /// The mean, of length `n`.
@@ -19,6 +29,16 @@ pub struct Gaussian {
 
 /// What a linear observation says of a Gaussian state: gain, corrected covariance, and the density of predicted
 /// observations. It depends on no value, only on covariances, so one of it serves every mean.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::math::gaussian::condition;
+/// // position and velocity, uncorrelated: seeing the position says nothing of the velocity
+/// let seen = condition(&dmatrix![3.0, 0.0; 0.0, 7.0], &dmatrix![1.0, 0.0], &dmatrix![1.0]).unwrap();
+/// assert!((seen.gain - dmatrix![0.75; 0.0]).amax() < 1e-14);
+/// assert!((seen.covariance - dmatrix![0.75, 0.0; 0.0, 7.0]).amax() < 1e-14);
+/// assert_eq!(seen.prediction_error.root()[(0, 0)], 2.0); // 3 + 1
+/// ```
 #[derive(Clone, Debug)]
 pub struct Conditioning {
     /// The gain `K = P H' S^-1`.
@@ -30,6 +50,14 @@ pub struct Conditioning {
 }
 
 /// A covariance factored by Cholesky.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use whither::math::gaussian::Factor;
+/// let factor = Factor::new(dmatrix![4.0, 2.0; 2.0, 2.0]).unwrap();
+/// assert_eq!(factor.root(), dmatrix![2.0, 0.0; 1.0, 1.0]);
+/// assert!(Factor::new(dmatrix![1.0, 2.0; 2.0, 1.0]).is_none()); // its determinant is -3
+/// ```
 #[derive(Clone, Debug)]
 pub struct Factor {
     cholesky: Cholesky<f64, Dyn>,

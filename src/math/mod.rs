@@ -3,9 +3,9 @@
 pub mod decay;
 pub mod gaussian;
 pub mod kalman;
-pub mod lanes;
+pub(crate) mod lanes;
 pub mod log_sum_exp;
-pub mod mixture;
+pub(crate) mod mixture;
 pub mod quadrature;
 pub mod random;
 pub mod van_loan;

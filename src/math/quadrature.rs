@@ -43,6 +43,14 @@ pub enum Quadrature {
 }
 
 /// Nodes in `[0, 1]` and weights that sum to one.
+///
+/// ```
+/// use whither::math::quadrature::Quadrature;
+/// let rule = Quadrature::GaussLegendre { points: 2 }.rule();
+/// // two nodes are enough for any cubic: the integral of x^3 is 1/4
+/// let sum: f64 = rule.nodes.iter().zip(&rule.weights).map(|(x, weight)| weight * x.powi(3)).sum();
+/// assert!((sum - 0.25).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// Where the integrand is taken, ascending.

@@ -42,6 +42,15 @@ pub struct VanLoan {
 }
 
 /// What an equation is over one step.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use whither::math::van_loan::VanLoan;
+/// // decay at the rate 1, for ln 2: half is left, and the integrals are 1 - 1/2 and (1 - 1/4) / 2
+/// let step = VanLoan::new(&dmatrix![-1.0], &dmatrix![1.0]).step(2f64.ln());
+/// assert!((step.transition[(0, 0)] - 0.5).abs() < 1e-14);
+/// assert!((step.integral[(0, 0)] - 0.5).abs() < 1e-14 && (step.noise[(0, 0)] - 0.375).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// `F`.

@@ -12,6 +12,14 @@ use crate::value::{Node, Value};
 pub const MAX_TIME: f64 = 1e12;
 
 /// Arrival times and the logs of their prior probabilities.
+///
+/// ```
+/// use whither::{math::quadrature::Quadrature, model::arrival::Arrival};
+/// let prior = Arrival::Discrete { times: vec![2.0, 5.0], weights: vec![1.0, 3.0] };
+/// let grid = prior.grid(&Quadrature::default(), 0.0, 1.0);
+/// assert_eq!(grid.times, [2.0, 5.0]);
+/// assert!((grid.log_weights[0].exp() - 0.25).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// `T - t_1`, or the time to go for `horizon`, in seconds; greater than zero.

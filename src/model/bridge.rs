@@ -14,6 +14,17 @@ use crate::math::gaussian::condition;
 use nalgebra::{DMatrix, DVector};
 
 /// `x_k = previous x_{k-1} + destination (G~ x_T) + offset + e`, `e ~ N(0, covariance)`.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::model::bridge::Bridge;
+/// // a Brownian bridge: a step of 1, 3 more to go
+/// let one = dmatrix![1.0];
+/// let bridge = Bridge::new(&one, &dmatrix![1.0], &one, &dmatrix![3.0], 1).unwrap();
+/// assert_eq!(bridge.covariance[(0, 0)], 0.75);
+/// // a drift of 2 a second changes nothing once the end is known
+/// assert_eq!(bridge.offset(&dvector![2.0], &dvector![6.0])[0], 0.0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Bridge {
     /// `A = (I - K B) F_h`, `s` by `s`; Rezaie and Li's `G_{k,k-1}` (7).

@@ -10,6 +10,14 @@ use nalgebra::{DMatrix, DVector};
 pub const MOST_DESTINATIONS: usize = 1_000_000;
 
 /// One nominal destination.
+///
+/// ```
+/// use whither::{Destination, Value, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "id": "map", "center": [500, 300], "size": [60, 12] }"#).unwrap();
+/// let destination = Destination::read(&Node::root(&value, "destination"), 2, 4).unwrap();
+/// assert_eq!((destination.mean, destination.prior), (vec![500.0, 300.0], 1.0));
+/// assert_eq!(destination.kind.covariance[(1, 1)], 12.0); // of an even density: 12^2 / 12
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Destination {
     /// Its name, unique among the destinations.
@@ -23,6 +31,14 @@ pub struct Destination {
 }
 
 /// What many destinations have in common: the endpoint's covariance, its size, the arrival prior.
+///
+/// ```
+/// use whither::{Destination, Value, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "id": "map", "mean": [500], "covariance": [[48]] }"#).unwrap();
+/// let kind = Destination::read(&Node::root(&value, "destination"), 1, 2).unwrap().kind;
+/// assert_eq!(kind.size, None);
+/// assert_eq!(kind.extent(1), 24.0); // an even density 24 wide has the variance 24^2 / 12 = 48
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kind {
     /// The endpoint's covariance `S_i`, `l` by `l`.
@@ -126,6 +142,17 @@ impl Kind {
 }
 
 /// The destinations of a predictor, in order, as flat arrays; what they share is kept once for each kind.
+///
+/// ```
+/// use whither::{Value, model::destination::Destinations, value::Node};
+/// let value: Value = serde_json::from_str(r#"[
+///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 12, "prior": 3 }
+/// ]"#).unwrap();
+/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
+/// assert_eq!((destinations.len(), destinations.index_of("far").unwrap()), (2, 1));
+/// assert_eq!(destinations.priors(), [1.0, 3.0]);
+/// assert_eq!(destinations.kinds().len(), 1); // of the same size, so they share their covariance
+/// ```
 #[derive(Clone, Debug)]
 pub struct Destinations {
     dimensions: usize,

@@ -4,6 +4,16 @@ use super::motion::{MotionModel, Transition};
 use nalgebra::{DMatrix, DVector};
 
 /// The first `l` components of the state a time `R` later.
+///
+/// ```
+/// use whither::{Value, model::{endpoint::Endpoint, motion::Motion}, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 1, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// // the position, two seconds later
+/// let endpoint = Endpoint::after(motion.candidates[0].model.as_ref(), 2.0, 1);
+/// assert_eq!((endpoint.matrix[(0, 0)], endpoint.matrix[(0, 1)]), (1.0, 2.0));
+/// assert_eq!(endpoint.noise[(0, 0)], 24.0); // 3^2 2^3 / 3
+/// ```
 #[derive(Clone, Debug)]
 pub struct Endpoint {
     /// `B = G~ F(R)`, `l` by `s`.

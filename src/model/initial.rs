@@ -8,6 +8,17 @@ use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 
 /// What is known of `x_1` before `y_1`.
+///
+/// ```
+/// use whither::{Value, model::{initial::Initial, observation::ObservationModel}, value::Node};
+/// let value: Value = serde_json::from_str(r#"[{ "noise": 2 }, { "velocity": 5 }]"#).unwrap();
+/// let Value::List(parts) = &value else { panic!() };
+/// let model = ObservationModel::read(&Node::root(&parts[0], "observation"), 1, 2).unwrap();
+/// let initial = Initial::read(Some(Node::root(&parts[1], "initial")), 1, 2, &[0.0]).unwrap();
+/// let first = initial.posterior(&model, &model.measurement(&[Some(7.0)], None).unwrap()).unwrap();
+/// assert_eq!(first.mean.as_slice(), [7.0, 0.0]); // where it was seen, at rest
+/// assert_eq!(first.covariance.as_slice(), [4.0, 0.0, 0.0, 25.0]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Initial {
     prior: Prior,

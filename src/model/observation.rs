@@ -7,6 +7,14 @@ use crate::value::{LARGEST, Node, Value};
 use nalgebra::{DMatrix, DVector};
 
 /// How the state is observed: the matrix `G` (positions by default) and the covariance `V`.
+///
+/// ```
+/// use whither::{Value, model::observation::ObservationModel, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "noise": 3 }"#).unwrap();
+/// let model = ObservationModel::read(&Node::root(&value, "observation"), 2, 4).unwrap();
+/// assert!(model.is_position() && model.axes() == 2);
+/// assert_eq!(model.noise().as_slice(), [9.0, 0.0, 0.0, 9.0]); // a deviation is squared
+/// ```
 #[derive(Clone, Debug)]
 pub struct ObservationModel {
     /// `G`, `m` by `s`; none where positions are observed as they are, `G = [I 0]`.

@@ -4,6 +4,14 @@ use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
 
 /// Arrival times and their probabilities.
+///
+/// ```
+/// use whither::Arrival;
+/// let arrival = Arrival::from_nodes(vec![(5.0, 3.0), (1.0, 1.0)]);
+/// assert_eq!((&arrival.times[..], &arrival.probabilities[..]), (&[1.0, 5.0][..], &[0.25, 0.75][..]));
+/// assert_eq!(arrival.mean, 4.0);
+/// assert!((arrival.deviation - 3f64.sqrt()).abs() < 1e-14); // (9 + 3 * 1) / 4
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {
     /// The nodes, ascending.

@@ -9,12 +9,32 @@ use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
 
 /// Destinations that are asked about, each with its share; the shares need not sum to one.
+///
+/// ```
+/// use whither::posterior::Shares;
+/// fn total(shares: Shares<'_>) -> f64 {
+///     shares.iter().map(|(_, share)| share).sum()
+/// }
+/// assert_eq!(total(&[(0, 0.125), (4, 0.375)]), 0.5);
+/// ```
 pub type Shares<'a> = &'a [(usize, f64)];
 
 /// Below this, probabilities beside that of none have lost digits: what they are among each other is taken from the logs.
 const SMALLEST_SUM: f64 = 1e-280;
 
 /// What is believed after an observation.
+///
+/// ```
+/// use whither::{Value, model::destination::Destinations, posterior::Posterior, value::Node};
+/// let value: Value = serde_json::from_str(r#"[
+///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 12, "prior": 3 }
+/// ]"#).unwrap();
+/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
+/// let mut posterior = Posterior::default();
+/// posterior.set_to_prior(&destinations, 0.5);
+/// assert_eq!(posterior.probabilities, [0.125, 0.375]); // 1 to 3, of the half that is left
+/// assert_eq!(posterior.best(), 1);
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Posterior {
     /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as the plan's rows.

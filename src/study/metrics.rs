@@ -19,6 +19,16 @@ pub const COURSE: usize = 21;
 pub const FLOOR: f64 = 1e-4;
 
 /// What was predicted after one sample.
+///
+/// ```
+/// use whither::study::{metrics::{Prediction, Score}, track::Track};
+/// let track: Track = serde_json::from_str(r#"{
+///     "target": 1, "targets": [[0, 0, 40, 40], [100, 0, 40, 40]],
+///     "samples": [[0, 50, 0], [1, 60, 0], [2, 90, 0], [3, 95, 0]]
+/// }"#).unwrap();
+/// let predictions = [0, 1, 1, 1].map(|top| Prediction { top: Some(top), chances: None });
+/// assert_eq!(Score::of(&track, &predictions).lead, 2.0); // right for the last two of three seconds
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// The most probable target; none where the predictor names none.
@@ -28,6 +38,13 @@ pub struct Prediction {
 }
 
 /// One bin of a calibration curve.
+///
+/// ```
+/// use whither::study::metrics::{Bin, calibration_error};
+/// // four predictions of 0.7 to 0.8 that sum to 3, of which two came true
+/// let bin = Bin { count: 4.0, predicted: 3.0, happened: 2.0 };
+/// assert_eq!(calibration_error(&[bin]), 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bin {
     /// How many predictions.
@@ -39,6 +56,19 @@ pub struct Bin {
 }
 
 /// The score of one predictor on one track, or the sum of many.
+///
+/// ```
+/// use whither::study::{metrics::{Prediction, Score}, track::Track};
+/// let track: Track = serde_json::from_str(r#"{
+///     "target": 1, "targets": [[0, 0, 40, 40], [100, 0, 40, 40]],
+///     "samples": [[0, 50, 0], [1, 60, 0], [2, 90, 0], [3, 95, 0]]
+/// }"#).unwrap();
+/// let half = Prediction { top: Some(1), chances: Some([0.5, 0.5]) };
+/// let wrong = Prediction { top: Some(0), chances: Some([0.5, 0.5]) };
+/// let score = Score::of(&track, &[wrong, wrong, half, half]);
+/// assert_eq!(score.time, 0.5); // the last two of four samples, each with half of its neighbours' interval
+/// assert!((score.loss - 4.0 * 2f64.ln()).abs() < 1e-14);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Score {
     /// Tracks.
@@ -60,6 +90,15 @@ pub struct Score {
 }
 
 /// The figures of a [`Score`], over its tracks.
+///
+/// ```
+/// use whither::study::metrics::Score;
+/// let mut sum = Score { tracks: 1.0, time: 0.5, lead: 0.25, ..Score::default() };
+/// sum.add(&Score { tracks: 1.0, time: 1.0, lead: 0.75, ..Score::default() });
+/// let figures = sum.figures();
+/// assert_eq!((figures.time, figures.lead), (75.0, 500.0)); // percent and milliseconds, of a mean track
+/// assert_eq!(figures.loss, None); // without probabilities there is none
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// Share of the time with the true target on top, in percent.

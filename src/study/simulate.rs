@@ -4,6 +4,14 @@ use super::track::{Sample, Target, Track};
 use crate::math::random::Random;
 
 /// How a simulated hand moves: minimum jerk with a bow, a tremor and Fitts's time.
+///
+/// ```
+/// use whither::{math::random::Random, study::{simulate::Hand, track::Target}};
+/// let target = Target { center: vec![280.0, 0.0], size: vec![40.0, 40.0] };
+/// let track = Hand::default().reach(&mut Random::new(1), [0.0, 0.0], &[target], 0);
+/// // 0.25 + 0.15 log2(280 / 40 + 1), give or take where in the target it aims
+/// assert!((track.samples.last().unwrap().time - 0.7).abs() < 0.02);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hand {
     /// Seconds between samples.

@@ -6,6 +6,16 @@ use crate::value::{Node, Value};
 use serde::{Deserialize, Deserializer};
 
 /// One recorded movement towards one of several targets.
+///
+/// ```
+/// use whither::study::track::Track;
+/// let track: Track = serde_json::from_str(r#"{
+///     "target": 1, "targets": [[0, 0, 40, 40], [100, 0, 40, 40]],
+///     "samples": [[0, 50, 0], [1, 60, 0], [2, 90, 0], [3, 95, 0]]
+/// }"#).unwrap();
+/// assert_eq!(track.dimensions(), 2);
+/// assert_eq!(track.approach(), Some(3)); // the third sample is the first in the target
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// Its name.
@@ -21,6 +31,12 @@ pub struct Track {
 }
 
 /// A box in the plane, or a ball in space.
+///
+/// ```
+/// use whither::study::track::Target;
+/// let target = Target { center: vec![100.0, 0.0], size: vec![40.0, 20.0] };
+/// assert!(target.contains(&[85.0, 5.0]) && !target.contains(&[85.0, 15.0]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// The centre.
@@ -30,6 +46,15 @@ pub struct Target {
 }
 
 /// One observation.
+///
+/// ```
+/// use whither::study::track::{Sample, Track};
+/// let track: Track = serde_json::from_str(r#"{
+///     "target": 1, "targets": [[0, 0, 40, 40], [100, 0, 40, 40]],
+///     "samples": [[0, 50, 0], [1, 60, 0], [2, 90, 0], [3, 95, 0]]
+/// }"#).unwrap();
+/// assert_eq!(track.samples[2], Sample { time: 2.0, position: vec![90.0, 0.0] });
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// Seconds since any moment.

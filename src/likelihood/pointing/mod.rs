@@ -5,18 +5,18 @@
 //!
 //! | part | what it is for | where |
 //! |---|---|---|
-//! | filter | a hand that moves fast changes its velocity more than one that rests | [`course`] |
-//! | endpoint density | where the movement would end if it went on, some time from now, wider along the way than across | [`endpoint`] |
-//! | start density | what was already likely before the movement: near targets are many, far ones few | [`evidence`] |
-//! | direction | the way covered so far points at the target, the better the farther one has come | [`evidence`] |
+//! | filter | a hand that moves fast changes its velocity more than one that rests | `course` |
+//! | endpoint density | where the movement would end if it went on, some time from now, wider along the way than across | `endpoint` |
+//! | start density | what was already likely before the movement: near targets are many, far ones few | `evidence` |
+//! | direction | the way covered so far points at the target, the better the farther one has come | `evidence` |
 //! | power | the first samples say less than the model believes, the later ones more | [`parameters::Power`] |
-//! | near | a movement seldom ends where it began | [`evidence`] |
+//! | near | a movement seldom ends where it began | `evidence` |
 //!
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
 
-pub mod course;
-pub mod endpoint;
-pub mod evidence;
+pub(crate) mod course;
+pub(crate) mod endpoint;
+pub(crate) mod evidence;
 pub mod parameters;
 
 use crate::model::destination::Destinations;
@@ -26,10 +26,16 @@ use parameters::Parameters;
 use std::sync::Arc;
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
+///
+/// ```
+/// use whither::likelihood::pointing::{Vector, dot, vector};
+/// let way: Vector = vector(&[3.0, 4.0]);
+/// assert_eq!((way, dot(&way, &way)), ([3.0, 4.0, 0.0], 25.0));
+/// ```
 pub type Vector = [f64; 3];
 
 /// A symmetric matrix: xx, xy, yy, xz, yz, zz.
-pub type Symmetric = [f64; 6];
+pub(crate) type Symmetric = [f64; 6];
 
 /// The inner product.
 #[must_use]
@@ -53,7 +59,7 @@ pub fn vector(components: &[f64]) -> Vector {
 
 /// One movement under the pointing model.
 #[derive(Clone, Debug)]
-pub struct Pointing {
+pub(crate) struct Pointing {
     parameters: Arc<Parameters>,
     course: Course,
     /// `ln S_i` and the logarithm of the factor `near`, for each destination.

@@ -13,6 +13,16 @@ const MOST_SCALES: usize = 16;
 const MOST_NODES: usize = 1001;
 
 /// Every constant. Lengths are in the unit of the positions, times in seconds, angles in radians.
+///
+/// ```
+/// use whither::{scenario::Engine, pointer::{PointerOptions, PointerTarget, pointer_scenario}};
+/// let target = PointerTarget { id: "map".to_owned(), x: 0.0, y: 0.0, width: 90.0, height: 90.0 };
+/// let scenario = pointer_scenario(&[target], PointerOptions::default()).unwrap();
+/// let Engine::Pointing(parameters) = &scenario.engine else { panic!() };
+/// // the movement to come is steady or it turns, and is less certain along the way than across it
+/// assert!(parameters.scales[0] < parameters.scales[1]);
+/// assert!(parameters.along_noise > parameters.across_noise);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
     /// Filter: root of the noise's spectral density at rest (`motion.noise`).
@@ -44,6 +54,12 @@ pub struct Parameters {
 }
 
 /// A discrete prior on the time to go, log-normal about a median that follows the speed.
+///
+/// ```
+/// use whither::likelihood::pointing::parameters::TimeToGo;
+/// let prior = TimeToGo { from: 0.1, to: 0.4, points: 3, median: 0.2, spread: 0.5, speed_exponent: -0.25 };
+/// assert!((prior.nodes()[1] - 0.2).abs() < 1e-14); // twice the first, half of the last
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeToGo {
     /// The first node.
@@ -61,6 +77,13 @@ pub struct TimeToGo {
 }
 
 /// Density of the endpoint seen from the start: `(distance^2 + core^2)^(-exponent/2)` within `reach`.
+///
+/// ```
+/// use whither::likelihood::pointing::parameters::Start;
+/// let start = Start { exponent: 0.0, core: 1.0, reach: 10.0 };
+/// // flat within its reach: over the length 20 in one axis
+/// assert!((start.log_volume(1) - 20f64.ln()).abs() < 1e-3);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// How fast it falls; `d - 1` makes every distance equally likely.
@@ -72,6 +95,15 @@ pub struct Start {
 }
 
 /// The angle at the start between where the pointer is and where a destination is.
+///
+/// ```
+/// use whither::{scenario::Engine, pointer::{PointerOptions, PointerTarget, pointer_scenario}};
+/// let target = PointerTarget { id: "map".to_owned(), x: 0.0, y: 0.0, width: 90.0, height: 90.0 };
+/// let scenario = pointer_scenario(&[target], PointerOptions::default()).unwrap();
+/// let Engine::Pointing(parameters) = &scenario.engine else { panic!() };
+/// // an angle counts between the two
+/// assert!(parameters.direction.core < parameters.direction.wide);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Direction {
     /// Weight.
@@ -87,6 +119,13 @@ pub struct Direction {
 }
 
 /// A power that grows from `from` to `to` with the time constant `time`.
+///
+/// ```
+/// use whither::likelihood::pointing::parameters::Power;
+/// let power = Power { from: 0.5, to: 1.5, time: 0.2 };
+/// assert_eq!(power.after(0.0), 0.5);
+/// assert!((power.after(0.2 * 2f64.ln()) - 1.0).abs() < 1e-14); // half of the way
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
     /// At the first observation.

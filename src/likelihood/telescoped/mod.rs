@@ -10,18 +10,18 @@
 //!
 //! | part | what |
 //! |---|---|
-//! | [`separable`] | the filters, `m_n, V_n, u_n, U_n` where axes do not mix |
-//! | [`coupled`] | the same where they do |
-//! | [`classes`] | the destinations in flat arrays |
-//! | [`terms`] | the coefficients |
-//! | [`crate::math::mixture`] | the sum |
+//! | `separable` | the filters, `m_n, V_n, u_n, U_n` where axes do not mix |
+//! | `coupled` | the same where they do |
+//! | `classes` | the destinations in flat arrays |
+//! | `terms` | the coefficients |
+//! | `math::mixture` | the sum |
 //!
 //! [`super::pseudo_observation`] says the same densely, one pair at a time; a test holds the two together.
 
-pub mod classes;
-pub mod coupled;
-pub mod separable;
-pub mod terms;
+pub(crate) mod classes;
+pub(crate) mod coupled;
+pub(crate) mod separable;
+pub(crate) mod terms;
 
 use super::Method;
 use super::candidates::{Movement, advance_filter};
@@ -72,6 +72,24 @@ struct StepsTo {
 }
 
 /// A movement so far, with everything that turns it into probabilities.
+///
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use whither::{Gaussian, Scenario, likelihood::{plan::Plan, telescoped::Telescoped}, scenario::Engine};
+/// let scenario: Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
+///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
+///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
+/// }"#).unwrap();
+/// let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { panic!() };
+/// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
+/// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
+/// let mut movement = Telescoped::begin(&scenario.motion, &scenario.destinations, &plan, &first, true);
+/// assert!(movement.is_separable() && movement.is_alive(1.9) && !movement.is_alive(2.1));
+/// // one axis is seen, with the variance 1
+/// assert!(movement.advance_separately(1.0, &[Some(3.0)], &[1.0; 3]));
+/// assert_eq!(movement.observations(), 2);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Telescoped {
     candidates: Vec<Candidate>,

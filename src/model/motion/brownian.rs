@@ -13,6 +13,14 @@ use crate::value::Value;
 pub(super) const KEYS: [&str; 3] = ["type", "dimensions", "noise"];
 
 /// Brownian motion; `s = d`.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "brownian", "dimensions": 1, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(2.0);
+/// assert_eq!((step.transition[(0, 0)], step.noise[(0, 0)]), (1.0, 18.0)); // 3^2 2
+/// ```
 #[derive(Clone, Debug)]
 pub struct Brownian {
     noise: Vec<f64>,

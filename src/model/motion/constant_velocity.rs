@@ -14,6 +14,15 @@ use crate::value::Value;
 pub(super) const KEYS: [&str; 4] = ["type", "dimensions", "noise", "speedNoise"];
 
 /// Nearly constant velocity; `s = 2d`.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 1, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(2.0);
+/// assert_eq!(step.transition[(0, 1)], 2.0);
+/// assert_eq!(step.noise.as_slice(), [24.0, 18.0, 18.0, 18.0]); // 3^2 times 2^3 / 3, 2^2 / 2, 2
+/// ```
 #[derive(Clone, Debug)]
 pub struct ConstantVelocity {
     noise: Vec<f64>,

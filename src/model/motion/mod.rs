@@ -40,6 +40,16 @@ pub const MAX_DIMENSIONS: usize = 3;
 pub const MAX_CANDIDATES: usize = 64;
 
 /// One step of a motion model, `x_k = F x_{k-1} + M + B c + e`, `e ~ N(0, Q)`, with `c` the destination's centre.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 2, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let step = motion.candidates[0].model.transition(2.0);
+/// assert_eq!(step.transition.nrows(), 4); // x, y and their velocities
+/// assert_eq!((step.transition[(0, 2)], step.transition[(1, 3)]), (2.0, 2.0));
+/// assert_eq!(step.destination_gain, None);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
     /// `F`, `s` by `s`.
@@ -54,6 +64,15 @@ pub struct Transition {
 
 /// One step of one axis of a model whose axes do not mix: the same equation with at most three components
 /// (position, velocity, acceleration). What lies beyond `states` is zero.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 2, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let axis = motion.candidates[0].model.axis(1, 2.0).unwrap();
+/// assert_eq!((axis.states, axis.transition[0]), (2, [1.0, 2.0, 0.0]));
+/// assert_eq!(motion.candidates[0].model.axis(2, 2.0), None); // there are two axes
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisTransition {
     /// How many components the axis has: 1, 2 or 3.
@@ -69,6 +88,19 @@ pub struct AxisTransition {
 }
 
 /// A motion model: what it is over any step.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "type": "constantAcceleration", "dimensions": 1, "noise": 3 }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let model = &motion.candidates[0].model;
+/// assert_eq!((model.dimensions(), model.states()), (1, 3));
+/// // two steps are one step of both
+/// let (first, second, both) = (model.transition(0.5), model.transition(1.5), model.transition(2.0));
+/// let carried = &second.transition * first.noise * second.transition.transpose() + second.noise;
+/// assert!((second.transition * first.transition - both.transition).amax() < 1e-14);
+/// assert!((carried - both.noise).amax() < 1e-12);
+/// ```
 pub trait MotionModel: Debug + Send + Sync {
     /// Spatial dimensions `d`, 1 to 3.
     fn dimensions(&self) -> usize;
@@ -125,6 +157,17 @@ fn assemble(
 }
 
 /// A motion model and its share in the average over noise candidates.
+///
+/// ```
+/// use whither::{Value, model::motion::Motion, value::Node};
+/// let value: Value = serde_json::from_str(r#"{
+///     "type": "brownian", "dimensions": 1, "noise": { "candidates": [2, 5], "weights": [1, 3] }
+/// }"#).unwrap();
+/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
+/// let [calm, lively] = &motion.candidates[..] else { panic!() };
+/// assert_eq!((calm.weight, lively.weight), (0.25, 0.75));
+/// assert_eq!(lively.model.transition(1.0).noise[(0, 0)], 25.0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The model.

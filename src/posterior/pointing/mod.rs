@@ -10,7 +10,7 @@ use crate::model::destination::Destinations;
 impl Posterior {
     /// Multiplies likelihoods, priors and the factor `near`, normalises together with none of them, whose prior is `none`,
     /// and spreads the even share over the destinations that are possible at all.
-    pub fn update_pointing(&mut self, pointing: &mut Pointing, destinations: &Destinations, none: f64) {
+    pub(crate) fn update_pointing(&mut self, pointing: &mut Pointing, destinations: &Destinations, none: f64) {
         pointing.log_likelihoods(destinations, &mut self.log_likelihoods);
         let priors = destinations.priors();
         let total: f64 = priors.iter().sum();
