@@ -21,7 +21,8 @@ use std::sync::Arc;
 /// use nalgebra::{dmatrix, dvector};
 /// use whither::{Gaussian, Scenario, likelihood::{candidates::Movement, plan::Plan}, scenario::Engine};
 /// let scenario: Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": { "candidates": [1, 9], "weights": [1, 3] } }, "observation": { "noise": 1 },
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": { "candidates": [1, 9], "weights": [1, 3] } },
+///     "observation": { "noise": 1 },
 ///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 ///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 /// }"#).unwrap();
