@@ -75,8 +75,8 @@ impl Filter {
         // the noise is positive definite, so the prediction error's covariance is
         if let Some(conditioning) = condition(&self.joint.covariance, &matrix, &measurement.noise) {
             let error = &measurement.value - matrix * &self.joint.mean;
-            self.joint.mean += conditioning.gain * error;
-            self.joint.covariance = conditioning.covariance;
+            self.joint.mean += &conditioning.gain * error;
+            self.joint.covariance = conditioning.covariance();
         }
     }
 

@@ -91,7 +91,7 @@ fn every_state_is_that_of_the_stacked_density() {
             let noise = sequence.model.observation.noise().clone();
             let conditioned = condition(&joint.covariance, &row, &noise).unwrap();
             joint.mean += &conditioned.gain * (z - joint.mean[step * s]);
-            joint.covariance = conditioned.covariance;
+            joint.covariance = conditioned.covariance();
             for k in 0..=8 {
                 let state = sequence.state(k).unwrap();
                 assert!((&state.mean - joint.mean.rows(k * s, s)).amax() < 1e-12, "mean of {k} at {step}");

@@ -48,7 +48,7 @@ impl Likelihood for Algorithm1 {
             let noise = &endpoint.noise + node.covariance;
             let Some(conditioned) = condition(&prediction, &endpoint.matrix, &noise) else { continue };
             // (11): Sigma_y
-            let error = propagate(observation, &conditioned.covariance, &step.measurement.noise);
+            let error = propagate(observation, &conditioned.covariance(), &step.measurement.noise);
             let Some(density) = Factor::new(error) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;

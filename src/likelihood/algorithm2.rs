@@ -52,7 +52,7 @@ impl Likelihood for Algorithm2 {
             let length = node.covariance.nrows();
             // (12): x_{k-1} given the pseudo-observation
             let whole = Endpoint::after(scene.motion, node.remaining + waited, length);
-            // (13): x_k given x_{k-1} and the pseudo-observation; L_y, and (I - L_y B_y) Q as Joseph's form has it
+            // (13): x_k given x_{k-1} and the pseudo-observation; L_y, and (I - L_y B_y) Q of the noise that is left
             let rest = Endpoint::after(scene.motion, node.remaining, length);
             let (Some(before), Some(onward)) = (
                 condition(&posterior, &whole.matrix, &(&whole.noise + node.covariance)),
@@ -61,7 +61,7 @@ impl Likelihood for Algorithm2 {
                 continue;
             };
             let prediction = &transition.transition - &onward.gain * (&rest.matrix * &transition.transition);
-            let state = propagate(&prediction, &before.covariance, &onward.covariance);
+            let state = propagate(&prediction, &before.covariance(), &onward.covariance());
             let Some(density) = Factor::new(propagate(observation, &state, &step.measurement.noise)) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;

@@ -100,7 +100,7 @@ impl Likelihood for Bridging {
                 }
                 self.means[place..place + s + l].copy_from_slice(mean.as_slice());
             }
-            self.covariances[node.number] = correction.map_or(predicted, |correction| correction.covariance);
+            self.covariances[node.number] = correction.map_or(predicted, |correction| correction.covariance());
         }
     }
 

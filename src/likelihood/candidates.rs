@@ -228,7 +228,7 @@ impl Movement {
         let worlds = self.worlds.iter().map(|world| {
             Value::map([
                 ("means", matrix(&world.filter.means)),
-                ("covariance", matrix(&world.filter.covariance)),
+                ("root", matrix(&world.filter.root)),
                 ("evidence", Value::exact_numbers(&world.filter.log_evidence)),
                 ("engine", world.engine.save()),
             ])
@@ -265,12 +265,12 @@ impl Movement {
         let list = fields.required("worlds")?;
         let items: Vec<Node<'_>> = list.items()?.collect();
         for (world, item) in movement.worlds.iter_mut().zip(&items) {
-            let fields = item.fields(&["means", "covariance", "evidence", "engine"])?;
+            let fields = item.fields(&["means", "root", "evidence", "engine"])?;
             let (columns, rows) = (world.filter.means.ncols(), 2 * s);
             let means = fields.required("means")?.exact_numbers(rows * columns)?;
             world.filter.means = DMatrix::from_vec(rows, columns, means);
-            let covariance = fields.required("covariance")?.exact_numbers(rows * rows)?;
-            world.filter.covariance = DMatrix::from_vec(rows, rows, covariance);
+            let root = fields.required("root")?.exact_numbers(rows * rows)?;
+            world.filter.root = DMatrix::from_vec(rows, rows, root);
             world.filter.log_evidence = fields.required("evidence")?.exact_numbers(columns)?;
         }
         let mut engines = items.iter();

@@ -4,11 +4,11 @@
 //! ```text
 //! p(y_1:k | D, T) = q(y_1:k) integral N(z; a, S) q(x_1, z) / f(z | x_1) dx_1 dz                                    (12)
 //! ```
-//! is a Gaussian integral. With `q(x_1, z)` whitened by its Cholesky root, `[x_1; z] = [m; c] + L xi`, its exponent is
+//! is a Gaussian integral. With `q(x_1, z)` whitened by its root, `[x_1; z] = [m; c] + L xi`, its exponent is
 //! `-(xi'(I + A_S - A_f) xi)/2 + ...`: no covariance of `q` is inverted, which matters as the two densities of `z` given
 //! `x_1` nearly cancel early on. (15) takes the denominator `f(z | x_1)` as constant.
 //!
-//! Table 1, line 12 of the paper prints `(I - K) P` for the corrected covariance; it is `(I - K C) P`, here in Joseph's form.
+//! Table 1, line 12 of the paper prints `(I - K) P` for the corrected covariance; it is `(I - K C) P`, here as a root's square.
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
@@ -27,9 +27,9 @@
 //! ```
 
 use super::{Likelihood, Scene};
-use crate::math::gaussian::{Factor, LN_2_PI, propagate};
+use crate::math::gaussian::{Factor, LN_2_PI, propagate, root, triangularise};
 use crate::model::endpoint::Endpoint;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 
 /// The exact engine, (12); it keeps nothing beyond the filter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,9 +104,10 @@ impl Integral {
         let mut both = DMatrix::zeros(s + l, 2 * s);
         both.view_mut((0, 0), (s, s)).fill_with_identity();
         both.view_mut((s, s), (l, s)).copy_from(&now.matrix);
-        let mut noise = DMatrix::zeros(s + l, s + l);
-        noise.view_mut((s, s), (l, l)).copy_from(&now.noise);
-        let root = Cholesky::new(propagate(&both, &scene.filter.covariance, &noise))?.l();
+        let mut array = DMatrix::zeros(s + l, 2 * s + l);
+        array.columns_mut(0, 2 * s).copy_from(&(both * &scene.filter.root));
+        array.view_mut((s, 2 * s), (l, l)).copy_from(&root(&now.noise));
+        let root = triangularise(array);
         let ends = root.rows(s, l).into_owned();
         let gap = &ends - &start.matrix * root.rows(0, s);
         let endpoint = Factor::new(covariance.clone())?;

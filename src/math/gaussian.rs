@@ -1,12 +1,19 @@
-//! Gaussian densities and conditioning, by Cholesky.
+//! Gaussian densities and conditioning, by roots of covariances.
 //!
 //! One conditioning on a linear observation serves everything here: the Kalman correction, Liang's pseudo-observation
 //! (10) and (12), and the fixed-point smoother are all `x | z = H x + n + v`, `v ~ N(0, R)`.
+//!
+//! It works on a root `L` of `P = L L'` (Kailath, Sayed and Hassibi, "Linear Estimation", 12.3: the array form). Joseph's form
+//! keeps a covariance positive only as long as its components span less than the sixteen digits of a double: a wide start
+//! and tiny noise lose it. What is a root times its transpose is positive whatever the rounding.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// `ln(2 pi)`.
 pub const LN_2_PI: f64 = 1.837_877_066_409_345_6;
+
+/// A deviation whose square is no number with all its digits.
+pub const VANISHING: f64 = 1e-150;
 
 /// A Gaussian over a vector: mean and covariance.
 ///
@@ -43,8 +50,8 @@ pub struct Gaussian {
 pub struct Conditioning {
     /// The gain `K = P H' S^-1`.
     pub gain: DMatrix<f64>,
-    /// The covariance after the observation, in Joseph's form: symmetric and positive by construction.
-    pub covariance: DMatrix<f64>,
+    /// A root of the covariance after the observation, `P+ = L L'`, lower triangular.
+    pub root: DMatrix<f64>,
     /// The prediction error's covariance `S = H P H' + R`, factored.
     pub prediction_error: Factor,
 }
@@ -64,13 +71,30 @@ pub struct Factor {
     log_normaliser: f64,
 }
 
+impl Conditioning {
+    /// The covariance after the observation.
+    #[must_use]
+    pub fn covariance(&self) -> DMatrix<f64> {
+        square(&self.root)
+    }
+}
+
 impl Factor {
     /// Factors a covariance; none if it is not positive definite.
     #[must_use]
     #[inline(never)]
     pub fn new(covariance: DMatrix<f64>) -> Option<Self> {
-        let n = covariance.nrows();
-        let cholesky = Cholesky::new(covariance)?;
+        Self::of(Cholesky::new(covariance)?)
+    }
+
+    /// The factor of `L L'` for a lower triangular root; none if it is singular.
+    #[must_use]
+    pub fn of_root(root: DMatrix<f64>) -> Option<Self> {
+        Self::of(Cholesky::pack_dirty(root))
+    }
+
+    fn of(cholesky: Cholesky<f64, Dyn>) -> Option<Self> {
+        let n = cholesky.l_dirty().nrows();
         let log_root: f64 = (0..n).map(|i| cholesky.l_dirty()[(i, i)].ln()).sum();
         log_root.is_finite().then(|| Self { cholesky, log_normaliser: -log_root - 0.5 * n as f64 * LN_2_PI })
     }
@@ -123,20 +147,102 @@ impl Factor {
 /// assert!((c.gain[(0, 0)] - 0.8).abs() < 1e-15);
 /// ```
 #[must_use]
-#[inline(never)]
 pub fn condition(p: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> Option<Conditioning> {
-    let hp = h * p;
-    let mut s = &hp * h.transpose() + r;
-    symmetrise(&mut s);
-    let prediction_error = Factor::new(s)?;
-    let gain = prediction_error.solve(&hp).transpose();
-    let mut left = -(&gain * h);
-    for i in 0..left.nrows() {
-        left[(i, i)] += 1.0;
+    condition_root(&root(p), h, r)
+}
+
+/// As [`condition`], for a root `L` of `P = L L'`: an orthogonal transformation turns
+/// ```text
+/// | R^1/2  H L |          | S^1/2      0  |
+/// |   0     L  |   into   | K S^1/2    L+ |
+/// ```
+#[must_use]
+#[inline(never)]
+pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> Option<Conditioning> {
+    let (m, n) = h.shape();
+    let mut array = DMatrix::zeros(m + n, m + n);
+    array.view_mut((0, 0), (m, m)).copy_from(&root(r));
+    array.view_mut((0, m), (m, n)).copy_from(&(h * l));
+    array.view_mut((m, m), (n, n)).copy_from(l);
+    let array = triangularise(array);
+    let spread = array.view((0, 0), (m, m)).into_owned();
+    let gain = spread.tr_solve_lower_triangular(&array.view((m, 0), (n, m)).transpose())?.transpose();
+    Some(Conditioning {
+        gain,
+        root: array.view((m, m), (n, n)).into_owned(),
+        prediction_error: Factor::of_root(spread)?,
+    })
+}
+
+/// `L L'`, symmetric to the bit.
+#[must_use]
+pub fn square(root: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = root * root.transpose();
+    symmetrise(&mut product);
+    product
+}
+
+/// A root of a positive semi-definite matrix, `P = A A'`: Cholesky's, with the largest pivot first and every component in
+/// units of its own deviation, until what is left is rounding. Its columns are in the order of the pivots.
+#[must_use]
+#[inline(never)]
+pub fn root(p: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = p.nrows();
+    let deviations: Vec<f64> = (0..n).map(|i| if p[(i, i)] > 0.0 { p[(i, i)].sqrt() } else { 0.0 }).collect();
+    let unit = |i: usize, j: usize| match deviations[i] * deviations[j] {
+        0.0 => 0.0,
+        scale => p[(i, j)] / scale,
+    };
+    let mut left = DMatrix::from_fn(n, n, unit);
+    let mut root = DMatrix::zeros(n, n);
+    for column in 0..n {
+        let pivot = left.diagonal().imax();
+        if left[(pivot, pivot)] <= n as f64 * f64::EPSILON {
+            break;
+        }
+        let part = left.column(pivot) / left[(pivot, pivot)].sqrt();
+        left.ger(-1.0, &part, &part, 1.0);
+        left.row_mut(pivot).fill(0.0);
+        left.column_mut(pivot).fill(0.0);
+        root.set_column(column, &part);
     }
-    let mut covariance = &left * p * left.transpose() + &gain * r * gain.transpose();
-    symmetrise(&mut covariance);
-    Some(Conditioning { gain, covariance, prediction_error })
+    for (i, deviation) in deviations.iter().enumerate() {
+        root.row_mut(i).scale_mut(*deviation);
+    }
+    root
+}
+
+/// The lower triangular `L` with `L L' = A A'`, its diagonal not negative: reflections from the right, row by row.
+#[must_use]
+#[inline(never)]
+pub fn triangularise(mut a: DMatrix<f64>) -> DMatrix<f64> {
+    let (n, m) = a.shape();
+    let mut reflector = vec![0.0; m];
+    for i in 0..n.min(m) {
+        let norm = a.row(i).columns(i, m - i).norm();
+        if norm < VANISHING {
+            (i..m).for_each(|j| a[(i, j)] = 0.0);
+            continue;
+        }
+        let pivot = a[(i, i)];
+        let diagonal = if pivot > 0.0 { -norm } else { norm };
+        for j in i..m {
+            reflector[j] = a[(i, j)];
+            a[(i, j)] = 0.0;
+        }
+        reflector[i] = pivot - diagonal;
+        // the reflected row's sign is turned with the column's, so that the diagonal is not negative
+        a[(i, i)] = norm;
+        let (scale, sign) = (1.0 / (norm * (norm + pivot.abs())), diagonal.signum());
+        for r in i + 1..n {
+            let dot = (i..m).map(|j| a[(r, j)] * reflector[j]).sum::<f64>() * scale;
+            for j in i..m {
+                a[(r, j)] -= dot * reflector[j];
+            }
+            a[(r, i)] *= sign;
+        }
+    }
+    a.resize_horizontally(n, 0.0)
 }
 
 /// `F P F' + Q`, kept symmetric.
@@ -186,6 +292,19 @@ mod tests {
     }
 
     #[test]
+    fn roots_and_triangles_keep_the_square() {
+        // the second component is twice the first, the third is free, the fourth nothing
+        let covariance = dmatrix![4.0, 8.0, 1.0, 0.0; 8.0, 16.0, 2.0, 0.0; 1.0, 2.0, 3.0, 0.0; 0.0, 0.0, 0.0, 0.0];
+        let root = root(&covariance);
+        assert!((square(&root) - &covariance).amax() < 1e-14);
+        let triangle = triangularise(root);
+        assert!((square(&triangle) - &covariance).amax() < 1e-14);
+        for i in 0..4 {
+            assert!(triangle[(i, i)] >= 0.0 && (i + 1..4).all(|j| triangle[(i, j)] == 0.0), "{triangle}");
+        }
+    }
+
+    #[test]
     fn two_observations_one_after_the_other_are_one_of_both() {
         let p = dmatrix![3.0, 0.5, 0.2; 0.5, 2.0, 0.1; 0.2, 0.1, 1.0];
         let h = dmatrix![1.0, 0.0, 0.5; 0.0, 1.0, 0.0];
@@ -193,7 +312,7 @@ mod tests {
         let both = condition(&p, &h, &r).unwrap();
         let row = |i: usize| h.rows(i, 1).into_owned();
         let first = condition(&p, &row(0), &dmatrix![0.3]).unwrap();
-        let second = condition(&first.covariance, &row(1), &dmatrix![0.7]).unwrap();
-        assert!((both.covariance - second.covariance).amax() < 1e-14);
+        let second = condition(&first.covariance(), &row(1), &dmatrix![0.7]).unwrap();
+        assert!((both.covariance() - second.covariance()).amax() < 1e-14);
     }
 }

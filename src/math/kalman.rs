@@ -1,11 +1,11 @@
 //! The Kalman filter over the pair (state at the first observation, state now).
 //!
-//! Liang (8) and the usual correction. The first state rides along, so that the filter is also the fixed-point smoother
+//! Liang (8) and the usual correction, in the array form: what is kept is a root of the covariance. The first state rides along, so that the filter is also the fixed-point smoother
 //! of Ardeshiri, section 3. Covariances and gains depend on no value: one of each serves every column of means. There is
 //! one column where the motion model does not know the destination, and one for each destination where it does.
 
-use super::gaussian::{Gaussian, condition, propagate};
-use nalgebra::{DMatrix, DVector};
+use super::gaussian::{Gaussian, condition_root, root, square, triangularise};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A linear observation `y = G x + v`, `v ~ N(0, V)`, as it was made: missing axes have no row.
 ///
@@ -28,7 +28,7 @@ pub struct Measurement {
     pub noise: DMatrix<f64>,
 }
 
-/// Mean columns and one covariance of `[x_1; x_k]`, and the log evidence `log p(y_2:k | y_1)` of each column.
+/// Mean columns and a root of one covariance of `[x_1; x_k]`, and the log evidence `log p(y_2:k | y_1)` of each column.
 ///
 /// ```
 /// use nalgebra::{dmatrix, dvector};
@@ -47,8 +47,8 @@ pub struct Filter {
     pub states: usize,
     /// `2 s` rows; one column, or one for each destination.
     pub means: DMatrix<f64>,
-    /// `2 s` by `2 s`.
-    pub covariance: DMatrix<f64>,
+    /// `L`, `2 s` by `2 s` and lower triangular: the covariance is `L L'`.
+    pub root: DMatrix<f64>,
     /// `log p(y_2:k | y_1)`, one for each column.
     pub log_evidence: Vec<f64>,
 }
@@ -78,10 +78,13 @@ impl Filter {
     pub fn new(first: &Gaussian, columns: usize) -> Self {
         let s = first.mean.len();
         let pair = DVector::from_fn(2 * s, |i, _| first.mean[i % s]);
+        // Cholesky's own order keeps what is uncorrelated uncorrelated to the bit
+        let one = Cholesky::new(first.covariance.clone())
+            .map_or_else(|| triangularise(root(&first.covariance)), |factor| factor.unpack());
         Self {
             states: s,
             means: DMatrix::from_fn(2 * s, columns, |i, _| pair[i]),
-            covariance: DMatrix::from_fn(2 * s, 2 * s, |i, j| first.covariance[(i % s, j % s)]),
+            root: DMatrix::from_fn(2 * s, 2 * s, |i, j| if j < s { one[(i % s, j)] } else { 0.0 }),
             log_evidence: vec![0.0; columns],
         }
     }
@@ -101,7 +104,7 @@ impl Filter {
     /// The covariance of the state now.
     #[must_use]
     pub fn current_covariance(&self) -> DMatrix<f64> {
-        self.covariance.view((self.states, self.states), (self.states, self.states)).into_owned()
+        square(&self.root.rows(self.states, self.states).into_owned())
     }
 
     /// The smoothed state at the first observation, `p(x_1 | y_1:k)`, for destination `i`.
@@ -110,7 +113,7 @@ impl Filter {
         let s = self.states;
         Gaussian {
             mean: self.means.column(self.column(i)).rows(0, s).into_owned(),
-            covariance: self.covariance.view((0, 0), (s, s)).into_owned(),
+            covariance: square(&self.root.view((0, 0), (s, s)).into_owned()),
         }
     }
 
@@ -123,17 +126,18 @@ impl Filter {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.means.iter().chain(self.covariance.iter()).chain(&self.log_evidence).all(|x| x.is_finite())
+        self.means.iter().chain(self.root.iter()).chain(&self.log_evidence).all(|x| x.is_finite())
     }
 
     /// Liang (8): the prediction of the next state.
     pub fn predict(&mut self, step: &TimeUpdate<'_>) {
         let s = self.states;
-        let mut both = DMatrix::identity(2 * s, 2 * s);
-        both.view_mut((s, s), (s, s)).copy_from(step.transition);
-        let mut noise = DMatrix::zeros(2 * s, 2 * s);
-        noise.view_mut((s, s), (s, s)).copy_from(step.noise);
-        self.covariance = propagate(&both, &self.covariance, &noise);
+        let moved = step.transition * self.root.rows(s, s);
+        self.root.view_mut((s, 0), (s, s)).copy_from(&moved.columns(0, s));
+        let mut now = DMatrix::zeros(s, 2 * s);
+        now.columns_mut(0, s).copy_from(&moved.columns(s, s));
+        now.columns_mut(s, s).copy_from(&root(step.noise));
+        self.root.view_mut((s, s), (s, s)).copy_from(&triangularise(now));
         let mut means = step.transition * self.means.rows(s, s);
         let shared = step.offsets.ncols() == 1;
         for (j, mut column) in means.column_iter_mut().enumerate() {
@@ -151,7 +155,7 @@ impl Filter {
         }
         let mut matrix = DMatrix::zeros(m, 2 * s);
         matrix.columns_mut(s, s).copy_from(&measurement.matrix);
-        let Some(conditioning) = condition(&self.covariance, &matrix, &measurement.noise) else { return false };
+        let Some(conditioning) = condition_root(&self.root, &matrix, &measurement.noise) else { return false };
         let predicted = &matrix * &self.means;
         for j in 0..self.means.ncols() {
             let error = &measurement.value - predicted.column(j);
@@ -160,7 +164,7 @@ impl Filter {
             let mut column = self.means.column_mut(j);
             column += correction;
         }
-        self.covariance = conditioning.covariance;
+        self.root = conditioning.root;
         true
     }
 }

@@ -75,8 +75,8 @@ impl Bridge {
         kept -= &conditioned.gain * &seen;
         Some(Self {
             previous: &kept * step_transition,
+            covariance: conditioned.covariance(),
             destination: conditioned.gain,
-            covariance: conditioned.covariance,
             kept,
         })
     }

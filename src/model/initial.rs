@@ -104,7 +104,7 @@ impl Initial {
                 let conditioning = condition(&prior.covariance, &first.matrix, &first.noise).ok_or_else(|| {
                     Error::new(Code::NotPositiveDefinite, "noise", "the first observation has no density")
                 })?;
-                Ok(Gaussian { mean: &prior.mean + conditioning.gain * error, covariance: conditioning.covariance })
+                Ok(Gaussian { mean: &prior.mean + &conditioning.gain * error, covariance: conditioning.covariance() })
             }
             Prior::Flat(deviations) => {
                 let (axes, states) = (model.axes(), first.matrix.ncols());

@@ -6,7 +6,7 @@
 
 use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
-use crate::math::gaussian::{Gaussian, condition, propagate};
+use crate::math::gaussian::{Gaussian, condition, propagate, symmetrise};
 use crate::model::destination::Destinations;
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
@@ -31,6 +31,7 @@ impl Moments {
         mixture.covariance *= before / self.total;
         mixture.covariance += covariance * share;
         mixture.covariance.ger(share * (before / self.total), &offset, &offset, 1.0);
+        symmetrise(&mut mixture.covariance);
         mixture.mean.axpy(share, &offset, 1.0);
     }
 }
@@ -72,6 +73,7 @@ impl Posterior {
                     let predicted = propagate(&onward.transition, &covariance, &onward.noise);
                     let noise = &rest.noise + endpoint_noise;
                     let Some(conditioned) = condition(&predicted, &rest.matrix, &noise) else { continue };
+                    let remaining = conditioned.covariance();
                     for &i in &group.members {
                         let i = i as usize;
                         let weight = weight(i);
@@ -81,7 +83,7 @@ impl Posterior {
                         let center = destinations.center(i);
                         let mean = &onward.transition * world.filter.mean(i) + onward.constant(center);
                         let error = rest.error(destinations.mean(i), &mean, center);
-                        moments.add(weight, mean + &conditioned.gain * error, &conditioned.covariance);
+                        moments.add(weight, mean + &conditioned.gain * error, &remaining);
                     }
                 }
             }

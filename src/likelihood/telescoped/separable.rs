@@ -5,6 +5,7 @@
 //! nodes are worked on at a time. Axes that are alike (one noise, one history of observation noise) share all that does not
 //! depend on a mean.
 
+use crate::math::gaussian::VANISHING;
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::HALF_LOG2_E;
 use crate::model::motion::{AxisTransition, MotionModel};
@@ -15,14 +16,16 @@ pub const MOST: usize = 3;
 const PAIR: usize = 2 * MOST;
 
 /// The Kalman posterior of one axis over the pair (now, first observation), Liang (8) and the usual correction. The first
-/// state rides along, as in [`crate::math::kalman`].
+/// state rides along, and what is kept is a root of the covariance, as in [`crate::math::kalman`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisFilter {
     states: usize,
     /// The state now; the first one from `MOST` on.
     pub mean: [f64; PAIR],
-    /// Of both; symmetric.
-    pub covariance: [[f64; PAIR]; PAIR],
+    /// Lower triangular `L`, first the rows of the first state, then those of the state now: the covariance is `L L'`.
+    pub root: [[f64; PAIR]; PAIR],
+    /// The covariance of the state now.
+    pub covariance: [[f64; MOST]; MOST],
 }
 
 /// What one observation of one axis does: the gain, and the prediction error's variance.
@@ -35,7 +38,8 @@ struct Correction {
 impl AxisFilter {
     /// A filter of an axis with so many components, all zero.
     pub fn new(states: usize) -> Self {
-        Self { states: states.min(MOST), mean: [0.0; PAIR], covariance: [[0.0; PAIR]; PAIR] }
+        let covariance = [[0.0; MOST]; MOST];
+        Self { states: states.min(MOST), mean: [0.0; PAIR], root: [[0.0; PAIR]; PAIR], covariance }
     }
 
     /// How many components the axis has.
@@ -56,42 +60,61 @@ impl AxisFilter {
     }
 
     fn predict_covariance(&mut self, step: &AxisTransition) {
-        let (s, f) = (self.states, &step.transition);
-        let mut product = [[0.0; PAIR]; MOST];
+        let (s, before) = (self.states, self.root);
+        let noise = root(&step.noise, s);
+        // what the state now has of its own, and the noise beside it
+        let mut own = [[0.0; PAIR]; MOST];
         for i in 0..s {
-            for j in self.components() {
-                product[i][j] = (0..s).map(|m| f[i][m] * self.covariance[m][j]).sum();
+            let moved = |q: usize| (0..s).map(|m| step.transition[i][m] * before[s + m][q]).sum::<f64>();
+            for q in 0..s {
+                self.root[s + i][q] = moved(q);
+                own[i][q] = moved(s + q);
+                own[i][s + q] = noise[i][q];
             }
         }
+        triangularise(&mut own, s);
+        for i in 0..s {
+            self.root[s + i][s..2 * s].copy_from_slice(&own[i][..s]);
+        }
+        self.square();
+    }
+
+    /// A rotation for each column, from the position's own to the first, turns `[R^1/2, H L]` into `[S^1/2, 0]`; it turns the
+    /// rows of `[0, L]` into those of `[K S^1/2, L+]` and leaves `L` triangular.
+    fn correct_covariance(&mut self, variance: f64) -> Correction {
+        let s = self.states;
+        let mut deviation = variance.sqrt();
+        let mut leaning = [0.0; PAIR];
+        for q in (0..=s).rev() {
+            let known = self.root[s][q];
+            let total = (deviation * deviation + known * known).sqrt();
+            let (cosine, sine) = (deviation / total, known / total);
+            for p in q..2 * s {
+                let (entry, lean) = (self.root[p][q], leaning[p]);
+                self.root[p][q] = cosine * entry - sine * lean;
+                leaning[p] = sine * entry + cosine * lean;
+            }
+            deviation = total;
+        }
+        self.square();
+        let mut gain = [0.0; PAIR];
+        for i in 0..s {
+            gain[i] = leaning[s + i] / deviation;
+            gain[MOST + i] = leaning[i] / deviation;
+        }
+        Correction { gain, spread: deviation * deviation }
+    }
+
+    /// The covariance of the state now, from the root.
+    pub fn square(&mut self) {
+        let s = self.states;
         for i in 0..s {
             for j in 0..=i {
-                let entry = step.noise[i][j] + (0..s).map(|m| product[i][m] * f[j][m]).sum::<f64>();
+                let entry = (0..=s + j).map(|q| self.root[s + i][q] * self.root[s + j][q]).sum();
                 self.covariance[i][j] = entry;
                 self.covariance[j][i] = entry;
             }
-            for j in MOST..MOST + s {
-                self.covariance[i][j] = product[i][j];
-                self.covariance[j][i] = product[i][j];
-            }
         }
-    }
-
-    fn correct_covariance(&mut self, variance: f64) -> Correction {
-        let row = self.covariance[0];
-        let spread = row[0] + variance;
-        let gain = row.map(|entry| entry / spread);
-        for i in self.components() {
-            for j in self.components() {
-                self.covariance[i][j] -= gain[i] * row[j];
-            }
-        }
-        // the same without the difference, which cancels where the position was all but unknown
-        let rest = variance / spread;
-        for i in self.components() {
-            self.covariance[0][i] = row[i] * rest;
-            self.covariance[i][0] = row[i] * rest;
-        }
-        Correction { gain, spread }
     }
 
     fn correct_mean(&mut self, correction: &Correction, position: f64) -> f64 {
@@ -100,6 +123,46 @@ impl AxisFilter {
             self.mean[i] += correction.gain[i] * error;
         }
         error
+    }
+}
+
+/// A root of a positive semi-definite matrix, lower triangular.
+fn root(p: &[[f64; MOST]; MOST], s: usize) -> [[f64; MOST]; MOST] {
+    let mut root = [[0.0; MOST]; MOST];
+    for j in 0..s {
+        let dot = |i: usize, root: &[[f64; MOST]; MOST]| (0..j).map(|q| root[i][q] * root[j][q]).sum::<f64>();
+        let pivot = p[j][j] - dot(j, &root);
+        if pivot > 4.0 * f64::EPSILON * p[j][j] {
+            let diagonal = pivot.sqrt();
+            root[j][j] = diagonal;
+            for i in j + 1..s {
+                root[i][j] = (p[i][j] - dot(i, &root)) / diagonal;
+            }
+        }
+    }
+    root
+}
+
+/// As [`crate::math::gaussian::triangularise`], for `s` rows of `2 s`.
+fn triangularise(rows: &mut [[f64; PAIR]; MOST], s: usize) {
+    for i in 0..s {
+        let norm = rows[i][i..].iter().map(|x| x * x).sum::<f64>().sqrt();
+        let pivot = rows[i][i];
+        let mut reflector = [0.0; PAIR];
+        reflector[i..].copy_from_slice(&rows[i][i..]);
+        rows[i][i..].fill(0.0);
+        if norm < VANISHING {
+            continue;
+        }
+        rows[i][i] = norm;
+        let sign = if pivot > 0.0 { -1.0 } else { 1.0 };
+        reflector[i] = pivot - sign * norm;
+        let scale = 1.0 / (norm * (norm + pivot.abs()));
+        for row in &mut rows[i + 1..s] {
+            let dot = row.iter().zip(&reflector).map(|(x, r)| x * r).sum::<f64>() * scale;
+            row.iter_mut().zip(&reflector).for_each(|(x, r)| *x -= dot * r);
+            row[i] *= sign;
+        }
     }
 }
 
@@ -131,7 +194,7 @@ impl Axes {
 
     /// One observation, `step` seconds after the last: positions where observed, and their variances.
     pub fn advance(&mut self, model: &dyn MotionModel, step: f64, position: &[Option<f64>], variance: &[f64; MOST]) {
-        let before = self.filters[0].covariance;
+        let before = self.filters[0].root;
         let mut first: Option<(AxisTransition, Option<Correction>)> = None;
         let (mut squares, mut spreads) = (0.0, 1.0);
         for axis in 0..self.dimensions {
@@ -141,7 +204,7 @@ impl Axes {
             // an axis that is as the first one in all but its mean takes everything else from there
             let twin = first.filter(|(_, correction)| {
                 self.alike[axis]
-                    && filter.covariance == before
+                    && filter.root == before
                     && correction.is_some() == observed.is_some()
                     && variance[axis] == variance[0]
             });
@@ -149,7 +212,7 @@ impl Axes {
             filter.predict_mean(&transition);
             let correction = match twin {
                 Some((_, correction)) => {
-                    filter.covariance = leading.covariance;
+                    (filter.root, filter.covariance) = (leading.root, leading.covariance);
                     correction
                 }
                 None => {
@@ -176,7 +239,8 @@ impl Axes {
         for axis in 1..self.dimensions {
             if first.shares(axis) {
                 self.filters[axis].predict_mean(&transition);
-                self.filters[axis].covariance = self.filters[0].covariance;
+                (self.filters[axis].root, self.filters[axis].covariance) =
+                    (self.filters[0].root, self.filters[0].covariance);
             } else if let Some(transition) = model.axis(axis, elapsed) {
                 self.filters[axis].predict_mean(&transition);
                 self.filters[axis].predict_covariance(&transition);
