@@ -4,7 +4,9 @@
 mod documentation;
 mod errors;
 mod golden;
+mod identities;
 mod life;
+mod numerics;
 mod pointing;
 mod sequences;
 mod support;
