@@ -23,7 +23,7 @@ pub const VANISHING: f64 = 1e-150;
 /// let prior = Gaussian { mean: dvector![0.0], covariance: dmatrix![4.0] };
 /// // 5 is observed, with the variance 1
 /// let seen = condition(&prior.covariance, &dmatrix![1.0], &dmatrix![1.0]).unwrap();
-/// let posterior = Gaussian { mean: seen.gain * dvector![5.0], covariance: seen.covariance };
+/// let posterior = Gaussian { mean: &seen.gain * dvector![5.0], covariance: seen.covariance() };
 /// assert!((posterior.mean[0] - 4.0).abs() < 1e-14 && (posterior.covariance[(0, 0)] - 0.8).abs() < 1e-14);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -42,9 +42,9 @@ pub struct Gaussian {
 /// use whither::math::gaussian::condition;
 /// // position and velocity, uncorrelated: seeing the position says nothing of the velocity
 /// let seen = condition(&dmatrix![3.0, 0.0; 0.0, 7.0], &dmatrix![1.0, 0.0], &dmatrix![1.0]).unwrap();
-/// assert!((seen.gain - dmatrix![0.75; 0.0]).amax() < 1e-14);
-/// assert!((seen.covariance - dmatrix![0.75, 0.0; 0.0, 7.0]).amax() < 1e-14);
-/// assert_eq!(seen.prediction_error.root()[(0, 0)], 2.0); // 3 + 1
+/// assert!((&seen.gain - dmatrix![0.75; 0.0]).amax() < 1e-14);
+/// assert!((seen.covariance() - dmatrix![0.75, 0.0; 0.0, 7.0]).amax() < 1e-14);
+/// assert!((seen.prediction_error.root()[(0, 0)] - 2.0).abs() < 1e-14); // the root of 3 + 1
 /// ```
 #[derive(Clone, Debug)]
 pub struct Conditioning {
