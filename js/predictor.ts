@@ -286,6 +286,16 @@ export class Predictor {
     this.#live().reset();
   }
 
+  /**
+   * Tells what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not. The
+   * priors that are learnt hold from now on; {@link snapshot} keeps them.
+   *
+   * @throws {@link WhitherError} `unknown-id`.
+   */
+  chosen(id: string): void {
+    this.#live().chosen(plain({ id }));
+  }
+
   /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */
   clone(): Predictor {
     return adopt(this.#live().duplicate());

@@ -41,8 +41,24 @@ export interface Scenario {
   readonly none?: number | undefined;
   /** The constants of the method `pointing`, and only for it. {@link pointerScenario} fills them in. */
   readonly pointing?: Pointing | undefined;
+  /** How the priors of the destinations are learnt from `predictor.chosen(id)`. @defaultValue they are not */
+  readonly learning?: Learning | undefined;
   /** Where it may be going: 1 to 1 000 000 of them. */
   readonly destinations: readonly Destination[];
+}
+
+/** Priors that are learnt from what is chosen: counts with a Dirichlet prior. */
+export interface Learning {
+  /** How many choices the scenario's own priors are worth. */
+  readonly strength: number;
+  /** The share of every count that is lost at each choice, from 0 to less than 1. @defaultValue 0 */
+  readonly forgetting?: number | undefined;
+  /**
+   * How many choices the habit at large is worth against the habit after the last choice.
+   *
+   * @defaultValue the last choice is not regarded
+   */
+  readonly afterLast?: number | undefined;
 }
 
 /**
@@ -311,8 +327,27 @@ export interface Pointing {
   readonly near: number;
   /** How the weight of "none" grows with the power. */
   readonly noneGain: number;
+  /** What is added to the log weight of "none" once the pointer moves. @defaultValue 0 */
+  readonly noneOffset?: number | undefined;
+  /** The share of the probability of "none" that stays at its prior. @defaultValue 0 */
+  readonly noneShare?: number | undefined;
   /** The share of probability that is spread over all destinations alike. */
   readonly uniform: number;
+  /**
+   * The time to the entry into the target: its logarithm's median is `offset + nodes E[ln R] + speed ln(speed + 50)`, its 80%
+   * interval from the median times `exp(low)` to that times `exp(high)`.
+   *
+   * @defaultValue the posterior of the time-to-go nodes, which is too early
+   */
+  readonly remaining?:
+    | {
+        readonly offset: number;
+        readonly nodes: number;
+        readonly speed: number;
+        readonly low: number;
+        readonly high: number;
+      }
+    | undefined;
 }
 
 /** Something on a screen that a pointer may be going to. */

@@ -7,6 +7,7 @@ use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::model::arrival::MAX_TIME;
 use crate::model::destination::Destinations;
+use crate::model::habits::Habits;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
@@ -57,7 +58,7 @@ pub struct Best {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remaining {
-    /// The expected time to go.
+    /// The expected time to go; of the pointing model the median, which is off by the least.
     pub mean: f64,
     /// One in ten movements takes less.
     pub low: f64,
@@ -92,6 +93,7 @@ pub struct Predictor {
     pub(crate) scenario: Arc<Scenario>,
     pub(crate) destinations: Arc<Destinations>,
     pub(crate) track: Option<Track>,
+    pub(crate) habits: Habits,
     posterior: Posterior,
     stale: bool,
 }
@@ -106,7 +108,8 @@ impl Predictor {
     }
 
     pub(crate) fn with_track(scenario: Arc<Scenario>, destinations: Arc<Destinations>, track: Option<Track>) -> Self {
-        let mut predictor = Self { scenario, destinations, track, posterior: Posterior::default(), stale: true };
+        let posterior = Posterior::default();
+        let mut predictor = Self { scenario, destinations, track, habits: Habits::default(), posterior, stale: true };
         predictor.posterior.set_to_prior(&predictor.destinations, predictor.scenario.none);
         predictor
     }
@@ -342,6 +345,36 @@ impl Predictor {
     /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.
     pub fn reset(&mut self) {
         self.track = None;
+        self.stale = true;
+    }
+
+    /// Tells what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not.
+    /// The priors that are learnt hold from now on, for this movement and the ones after it.
+    ///
+    /// # Errors
+    /// `unknown-id`.
+    pub fn chosen(&mut self, id: &str) -> Result<()> {
+        self.destinations.index_of(id)?;
+        if let Some(learning) = &self.scenario.learning {
+            self.habits.chosen(learning, id);
+            self.apply_habits();
+            self.replan();
+        }
+        Ok(())
+    }
+
+    /// Lets the movement see priors that have changed.
+    pub(crate) fn replan(&mut self) {
+        if let Some(track) = &mut self.track {
+            track.replan(&self.scenario, &self.destinations, None);
+        }
+    }
+
+    /// Puts the priors that were learnt in force for the destinations as they are.
+    pub(crate) fn apply_habits(&mut self) {
+        let Some(learning) = &self.scenario.learning else { return };
+        let priors = self.habits.priors(learning, &self.destinations);
+        Arc::make_mut(&mut self.destinations).learn(priors);
         self.stale = true;
     }
 }

@@ -21,6 +21,7 @@ use crate::likelihood::pointing::parameters::Parameters;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
+use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
@@ -28,8 +29,18 @@ use crate::value::{Fields, Node, Value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
-const KEYS: [&str; 9] =
-    ["motion", "observation", "initial", "arrival", "quadrature", "method", "pointing", "none", "destinations"];
+const KEYS: [&str; 10] = [
+    "motion",
+    "observation",
+    "initial",
+    "arrival",
+    "quadrature",
+    "method",
+    "pointing",
+    "none",
+    "learning",
+    "destinations",
+];
 
 /// The most numbers that are kept for the pairs of destination and arrival time, a gigabyte of them.
 const MOST_NUMBERS: u64 = 1 << 27;
@@ -60,6 +71,8 @@ pub struct Scenario {
     pub engine: Engine,
     /// The prior probability that the object goes to none of the destinations, at least 0 and less than 1.
     pub none: f64,
+    /// How the destinations' priors are learnt from what is chosen, where they are.
+    pub learning: Option<Learning>,
     /// Where it may be going.
     pub destinations: Destinations,
 }
@@ -105,8 +118,9 @@ impl Scenario {
         let initial = Initial::read(fields.optional("initial"), d, s, &deviations_after_a_second(&motion))?;
         let engine = Engine::read(&fields, &motion, &observation, &initial)?;
         let none = fields.optional("none").map_or(Ok(0.0), |none| none.number())?;
+        let learning = fields.optional("learning").map(|learning| Learning::read(&learning)).transpose()?;
         let destinations = Destinations::read(&fields.required("destinations")?, d, s)?;
-        let scenario = Self { motion, observation, initial, engine, none, destinations };
+        let scenario = Self { motion, observation, initial, engine, none, learning, destinations };
         scenario.check()?;
         scenario.check_destinations(&scenario.destinations)?;
         Ok(scenario)
@@ -215,6 +229,9 @@ impl Scenario {
                 put("method", Value::text(POINTING));
                 put("pointing", parameters.to_value());
             }
+        }
+        if let Some(learning) = &self.learning {
+            put("learning", learning.to_value());
         }
         if *self.initial.to_value() != Value::Null {
             put("initial", self.initial.to_value().clone());

@@ -1,6 +1,7 @@
 //! Snapshots: a predictor as plain data, versioned and sealed, from which what follows is identical to the bit.
 
 use crate::error::{Code, Error, Result};
+use crate::model::habits::Habits;
 use crate::predictor::{Predictor, Track};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
@@ -28,7 +29,9 @@ impl Predictor {
     #[must_use]
     pub fn snapshot(&self) -> Value {
         let track = self.track.as_ref().map_or(Value::Null, |track| track.save(&self.scenario, &self.destinations));
-        let body = Value::map([("scenario", self.scenario.to_value_with(&self.destinations)), ("track", track)]);
+        let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
+        let scenario = self.scenario.to_value_with(&self.destinations);
+        let body = Value::map([("scenario", scenario), ("habits", habits), ("track", track)]);
         let seal = seal(&body);
         Value::map([
             ("whither", Value::text("snapshot")),
@@ -70,12 +73,18 @@ impl Predictor {
     }
 
     fn read_body(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["scenario", "track"])?;
+        let fields = node.fields(&["scenario", "habits", "track"])?;
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
         let destinations = Arc::new(scenario.destinations.clone());
-        let Some(track) = fields.optional("track") else { return Ok(Self::with_track(scenario, destinations, None)) };
-        let track = Track::load(&track, &scenario, &destinations)?;
-        Ok(Self::with_track(scenario, destinations, Some(track)))
+        let load = |track: Node<'_>| Track::load(&track, &scenario, &destinations);
+        let track = fields.optional("track").map(load).transpose()?;
+        let mut predictor = Self::with_track(scenario, destinations, track);
+        if let Some(habits) = fields.optional("habits") {
+            predictor.habits = Habits::load(&habits)?;
+            predictor.apply_habits();
+            predictor.replan();
+        }
+        Ok(predictor)
     }
 }
 

@@ -163,6 +163,8 @@ pub struct Destinations {
     /// `states` numbers for each destination; those after the first `l` are zero.
     means: Vec<f64>,
     priors: Vec<f64>,
+    /// The priors in force where they are learnt.
+    learnt: Option<Vec<f64>>,
     kind_of: Vec<u32>,
     kinds: Vec<Kind>,
 }
@@ -189,6 +191,7 @@ impl Destinations {
             by_id: Vec::new(),
             means: Vec::with_capacity(count * states),
             priors: Vec::with_capacity(count),
+            learnt: None,
             kind_of: Vec::with_capacity(count),
             kinds: Vec::new(),
         };
@@ -295,7 +298,18 @@ impl Destinations {
     /// The prior weights, not normalised.
     #[must_use]
     pub fn priors(&self) -> &[f64] {
+        self.learnt.as_deref().unwrap_or(&self.priors)
+    }
+
+    /// The prior weights as they were given, not normalised.
+    #[must_use]
+    pub fn given_priors(&self) -> &[f64] {
         &self.priors
+    }
+
+    /// Puts learnt priors in force, one for each destination, until the destinations change.
+    pub fn learn(&mut self, priors: Vec<f64>) {
+        self.learnt = (priors.len() == self.len()).then_some(priors);
     }
 
     /// What destination `i` shares with others.
@@ -338,6 +352,7 @@ impl Destinations {
     /// # Errors
     /// `duplicate-id`, `too-large`.
     pub fn add(&mut self, destination: &Destination) -> Result<()> {
+        self.learnt = None;
         let place = match self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(destination.id.as_str())) {
             Ok(place) => return Err(duplicate("id".to_owned(), &destination.id, self.by_id[place] as usize)),
             Err(place) => place,
@@ -357,6 +372,7 @@ impl Destinations {
     /// # Errors
     /// `out-of-range` where no prior would be left above zero; nothing has changed then.
     pub fn update(&mut self, i: usize, destination: &Destination) -> Result<()> {
+        self.learnt = None;
         let prior = std::mem::replace(&mut self.priors[i], destination.prior);
         if let Err(error) = self.check_priors("prior") {
             self.priors[i] = prior;
@@ -377,6 +393,7 @@ impl Destinations {
     /// # Errors
     /// `no-destinations` where it is the last one, `out-of-range` where no prior would be left above zero.
     pub fn remove(&mut self, i: usize) -> Result<()> {
+        self.learnt = None;
         if self.len() == 1 {
             return Err(Error::new(Code::NoDestinations, "id", "the last destination cannot be removed"));
         }

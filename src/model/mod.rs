@@ -4,6 +4,7 @@ pub mod arrival;
 pub mod bridge;
 pub mod destination;
 pub mod endpoint;
+pub mod habits;
 pub mod initial;
 pub mod motion;
 pub mod observation;

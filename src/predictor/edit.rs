@@ -74,12 +74,14 @@ impl Predictor {
         self.scenario.check_destinations(&changed)?;
         if self.track.is_none() {
             self.destinations = Arc::new(changed);
+            self.apply_habits();
             self.stale = true;
             return Ok(());
         }
         self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
         let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
         self.destinations = Arc::new(changed);
+        self.apply_habits();
         if let Some(track) = &mut self.track {
             track.replan(&self.scenario, &self.destinations, origin.as_deref());
         }

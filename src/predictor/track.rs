@@ -233,6 +233,11 @@ impl Track {
         if observations < 2 || self.expired() {
             return None;
         }
+        if let Followed::Pointing(pointing) = &self.followed
+            && let Some([mean, low, high]) = pointing.entry_time(destinations, &posterior.shares(destinations, None))
+        {
+            return Some(Remaining { mean, low, high });
+        }
         let arrival = self.arrival(scenario, posterior, destinations, None)?;
         Some(Remaining {
             mean: arrival.mean - elapsed,

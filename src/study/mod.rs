@@ -16,6 +16,8 @@
 //! assert!(score.time > 0.5);
 //! ```
 
+#[cfg(feature = "fit")]
+pub mod fit;
 pub mod metrics;
 pub mod simulate;
 pub mod track;

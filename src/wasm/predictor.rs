@@ -185,4 +185,11 @@ impl Engine {
     pub fn reset(&mut self) {
         self.predictor.reset();
     }
+
+    /// Counts `{ id }` as chosen.
+    pub fn chosen(&mut self, value: JsValue) -> Result<()> {
+        let value = data::read(value)?;
+        let node = Node::root(&value, "");
+        Ok(self.predictor.chosen(node.fields(&["id"])?.required("id")?.text()?)?)
+    }
 }

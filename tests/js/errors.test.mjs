@@ -17,7 +17,7 @@ const scenarios = [
   ["no scenario", undefined, "wrong-type", "", "must be an object, got nothing"],
   ["a text", "scenario", "wrong-type", "", 'must be an object, got "scenario"'],
   ["an empty object", {}, "missing-key", "motion", 'missing key "motion"'],
-  ["an unknown key", small({ metod: "bridging" }), "unknown-key", "metod", 'unknown key "metod", expected one of "motion", "observation", "initial", "arrival", "quadrature", "method", "pointing", "none", "destinations"'],
+  ["an unknown key", small({ metod: "bridging" }), "unknown-key", "metod", 'unknown key "metod", expected one of "motion", "observation", "initial", "arrival", "quadrature", "method", "pointing", "none", "learning", "destinations"'],
   ["an unknown key further down", small({ observation: { noise: 1, nois: 1 } }), "unknown-key", "observation.nois", 'unknown key "nois", expected one of "noise", "matrix"'],
   ["an undefined key is absent", small({ method: undefined, none: null }), null],
   ["NaN", small({ observation: { noise: Number.NaN } }), "not-finite", "observation.noise", "must be a finite number, got NaN"],

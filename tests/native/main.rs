@@ -5,6 +5,7 @@ mod documentation;
 mod errors;
 mod golden;
 mod identities;
+mod habits;
 mod life;
 mod numerics;
 mod pointing;

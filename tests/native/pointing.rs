@@ -250,3 +250,40 @@ fn a_scenario_is_written_as_it_was_read() {
     let again = Scenario::from_value(&scenario.to_value()).unwrap();
     assert_eq!(again.to_value(), scenario.to_value());
 }
+
+#[test]
+fn the_time_to_the_entry_follows_its_constants() {
+    let mut scenario = golden("pointing-grid21")["scenario"].clone();
+    let entry = json!({ "offset": 0.5, "nodes": 0, "speed": 0, "low": -1, "high": 2 });
+    scenario["pointing"]["remaining"] = entry;
+    let mut with = predictor(&scenario);
+    with.observe(0.0, &[300.0, 300.0]).unwrap();
+    assert_eq!(with.remaining(), None, "nothing can be said before it moves");
+    with.observe(0.016, &[310.0, 300.0]).unwrap();
+    let remaining = with.remaining().unwrap();
+    let found = [remaining.mean, remaining.low, remaining.high];
+    assert!(relative(&found, &[0.5f64.exp(), (-0.5f64).exp(), 2.5f64.exp()]) < 1e-12, "{found:?}");
+    scenario["pointing"]["remaining"]["low"] = json!(1);
+    let error = Scenario::from_value(&value(&scenario)).unwrap_err();
+    assert_eq!(error.to_string(), "pointing.remaining.low: must be less than 0, got 1");
+}
+
+#[test]
+fn a_share_of_none_stays_at_its_prior() {
+    let case = golden("pointing-none");
+    let mut scenario = case["scenario"].clone();
+    scenario["pointing"]["noneShare"] = json!(0.25);
+    let (mut plain, mut kept) = (predictor(&case["scenario"]), predictor(&scenario));
+    for row in observations(&case) {
+        for predictor in [&mut plain, &mut kept] {
+            predictor.observe(row[0], &row[1..]).unwrap();
+        }
+        let expected = 0.75 * plain.none() + 0.25 * 0.2;
+        assert!((kept.none() - expected).abs() < 1e-12);
+        let sum: f64 = kept.probabilities().iter().sum::<f64>() + kept.none();
+        assert!((sum - 1.0).abs() < 1e-12);
+        let scale = (1.0 - kept.none()) / (1.0 - plain.none());
+        let scaled: Vec<f64> = plain.probabilities().iter().map(|p| scale * p).collect();
+        assert!(relative(kept.probabilities(), &scaled) < 1e-9);
+    }
+}

@@ -6,6 +6,7 @@
 //! loss, expected calibration error, lead time; with an interval by drawing users.
 
 mod chart;
+mod extras;
 mod foresight;
 mod methods;
 mod peers;
@@ -13,14 +14,17 @@ mod reading;
 mod report;
 
 use clap::Parser;
+use extras::{Answers, Sums};
 use foresight::Foresight;
 use indicatif::{ProgressBar, ProgressStyle};
 use methods::{Method, Template};
 use peers::Peer;
 use rayon::prelude::*;
 use report::{Results, Set};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use whither::study::metrics::Score;
 
 /// Scores predictors on recorded movements.
 #[derive(Debug, Parser)]
@@ -32,6 +36,10 @@ struct Arguments {
     /// keys that each of them gets. Where examples/evaluate/scenarios has one of the same name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
+    /// Ask the pointing model two more things: the time to the entry, and "none of them" with the target taken out of half of
+    /// the tracks.
+    #[arg(long)]
+    more: bool,
     /// Leave the other predictors out.
     #[arg(long)]
     ours: bool,
@@ -68,21 +76,35 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     let mut results = Results::default();
     let mut skipped = 0;
+    let mut more = arguments.more.then(More::new).transpose()?;
     for file in &arguments.files {
         let methods = methods_for(arguments, file)?;
-        skipped += evaluate(arguments, file, &methods, &mut results)?;
+        skipped += evaluate(arguments, file, &methods, &mut results, more.as_mut())?;
     }
     if results.sets.is_empty() {
         return Err("no track enters its target: nothing to score".to_owned());
     }
     results.print(arguments.users);
+    let extras = more.map(|more| extras::report(&more.sums));
     if skipped > 0 {
         println!("{skipped} broken lines skipped, see above");
     }
-    results.write_json(&arguments.json)?;
+    results.write_json(&arguments.json, extras)?;
     let charts = chart::write(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
+}
+
+/// The further questions: the pointer's scenario, and the answers for each set.
+struct More {
+    template: whither::Value,
+    sums: BTreeMap<String, Sums>,
+}
+
+impl More {
+    fn new() -> Result<Self, String> {
+        Ok(Self { template: Template::pointer()?.into_scenario(), sums: BTreeMap::new() })
+    }
 }
 
 /// The methods for one file: its own scenario where there is one, else the pointer's; then those asked for; then peers.
@@ -106,7 +128,13 @@ fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String
     Ok(methods)
 }
 
-fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], results: &mut Results) -> Result<usize, String> {
+fn evaluate(
+    arguments: &Arguments,
+    file: &Path,
+    methods: &[Method],
+    results: &mut Results,
+    mut more: Option<&mut More>,
+) -> Result<usize, String> {
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let size = std::fs::metadata(file).map_err(|error| format!("{}: {error}", file.display()))?.len();
     let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}");
@@ -114,10 +142,18 @@ fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], results: &mu
     let mut skipped = 0;
     let mut sets: Vec<Set> = Vec::new();
     reading::in_batches(file, |lines, bytes| {
-        let scored: Vec<_> = lines.par_iter().map(|line| score(arguments, line, methods)).collect();
+        let scored: Vec<_> = {
+            let template = more.as_ref().map(|more| &more.template);
+            lines.par_iter().map(|line| score(arguments, line, methods, template)).collect()
+        };
         for (line, scored) in lines.iter().zip(scored) {
             match scored {
-                Ok(Some((part, user, scores))) => report::add(&mut sets, &name, part, methods, &user, &scores),
+                Ok(Some((part, user, scores, answers))) => {
+                    report::add(&mut sets, &name, part, methods, &user, &scores);
+                    if let (Some(more), Some(answers)) = (more.as_deref_mut(), answers) {
+                        more.sums.entry(format!("{name}{part}")).or_default().add(&answers);
+                    }
+                }
                 Ok(None) => {}
                 Err(message) => {
                     skipped += 1;
@@ -133,9 +169,14 @@ fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], results: &mu
     Ok(skipped)
 }
 
-type Scored = (&'static str, String, Vec<Option<whither::study::metrics::Score>>);
+type Scored = (&'static str, String, Vec<Option<Score>>, Option<Answers>);
 
-fn score(arguments: &Arguments, line: &reading::Line, methods: &[Method]) -> Result<Option<Scored>, String> {
+fn score(
+    arguments: &Arguments,
+    line: &reading::Line,
+    methods: &[Method],
+    more: Option<&whither::Value>,
+) -> Result<Option<Scored>, String> {
     let mut track = line.track()?;
     for target in &mut track.targets {
         target.size.iter_mut().for_each(|side| *side += arguments.margin);
@@ -149,5 +190,7 @@ fn score(arguments: &Arguments, line: &reading::Line, methods: &[Method]) -> Res
         approach = track.samples.len();
     }
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    Ok(Some((reading::part(&track), track.user, scores)))
+    let more = more.filter(|_| track.dimensions() == 2);
+    let answers = more.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;
+    Ok(Some((reading::part(&track), track.user, scores, answers)))
 }

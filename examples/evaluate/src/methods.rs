@@ -57,6 +57,11 @@ impl Template {
         Ok(Self { name: "whither, pointing model".to_owned(), scenario: scenario.to_value(), extra: Value::Null })
     }
 
+    /// The scenario alone.
+    pub fn into_scenario(self) -> Value {
+        self.scenario
+    }
+
     /// The papers' exact method with constant velocity, as a pointer's user would set it.
     pub fn constant_velocity() -> Result<Self, String> {
         Self::parse(include_str!("../scenarios/constant_velocity.json"))

@@ -152,13 +152,14 @@ impl Results {
     }
 
     /// Writes everything as JSON.
-    pub fn write_json(&self, path: &Path) -> Result<(), String> {
+    pub fn write_json(&self, path: &Path, more: Option<Json>) -> Result<(), String> {
         let sets: Vec<Json> = self
             .sets
             .iter()
             .map(|set| json!({ "set": set.name, "methods": set.rows.iter().map(Row::json).collect::<Vec<_>>() }))
             .collect();
-        let text = serde_json::to_string_pretty(&sets).map_err(|error| error.to_string())?;
+        let text =
+            serde_json::to_string_pretty(&json!({ "sets": sets, "more": more })).map_err(|error| error.to_string())?;
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         }

@@ -141,7 +141,7 @@ impl Pointing {
         if self.course.observations < 2 {
             return 0.0;
         }
-        self.parameters.none_gain * (power.after(self.course.elapsed) - power.from)
+        self.parameters.none_offset + self.parameters.none_gain * (power.after(self.course.elapsed) - power.from)
     }
 
     /// `ln (m^2 / (m^2 + near^2))` for every destination: part of the prior, once the start is known.

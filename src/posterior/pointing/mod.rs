@@ -26,17 +26,33 @@ impl Posterior {
             *value = (*value - largest).exp();
             sum += *value;
         }
-        self.none /= sum;
+        let scale = if self.none < sum { 1.0 / (sum - self.none) } else { 0.0 };
+        let kept = pointing.parameters().none_share;
+        self.none = (1.0 - kept) * self.none / sum + kept * none;
         let uniform = pointing.parameters().uniform;
         let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
         let share = uniform * (1.0 - self.none) / possible as f64;
         for (value, prior) in self.probabilities.iter_mut().zip(priors) {
-            *value = (1.0 - uniform) * *value / sum + if *prior > 0.0 { share } else { 0.0 };
+            *value = (1.0 - uniform) * (1.0 - self.none) * *value * scale + if *prior > 0.0 { share } else { 0.0 };
         }
     }
 }
 
 impl Pointing {
+    /// The median of the time to the entry into the target and its 80% interval, where the scenario has constants for it.
+    #[must_use]
+    pub fn entry_time(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<[f64; 3]> {
+        let entry = self.parameters().remaining.as_ref()?;
+        let pairs = self.nodes();
+        let (mut mean, mut total) = (0.0, 0.0);
+        for &(i, share) in shares {
+            let weights = pairs.weights(destinations.center(i), &destinations.kind(i).covariance);
+            mean += share * pairs.pairs.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
+            total += share;
+        }
+        Some(entry.at(mean / total, self.course().speed()))
+    }
+
     /// The posterior of the arrival time, in seconds since the first observation.
     #[must_use]
     pub fn arrival(&self, destinations: &Destinations, shares: Shares<'_>) -> Arrival {

@@ -1,0 +1,154 @@
+//! Two more questions to the pointing model: how good is "none of them", with the true target taken out of half of the
+//! tracks, and how good is the time to the entry into the target.
+
+use comfy_table::{Table, presets};
+use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
+use whither::study::metrics::{BINS, Bin, calibration_error};
+use whither::study::track::Track;
+use whither::{Predictor, Scenario, Value};
+
+/// The priors of "none" that are tried.
+pub const PRIORS: [f64; 2] = [0.2, 0.5];
+
+/// What one track says.
+#[derive(Debug, Default)]
+pub struct Answers {
+    /// Samples, sum of absolute errors in seconds, samples within the interval.
+    when: [f64; 3],
+    none: [NoneAnswers; PRIORS.len()],
+}
+
+#[derive(Debug, Default)]
+struct NoneAnswers {
+    bins: [Bin; BINS],
+    /// At 90% of the approach: the probability of none, and whether the target was absent.
+    late: Option<(f64, bool)>,
+}
+
+/// What a set of tracks says.
+#[derive(Debug, Default)]
+pub struct Sums {
+    when: [f64; 3],
+    bins: [[Bin; BINS]; PRIORS.len()],
+    late: [Vec<(f64, bool)>; PRIORS.len()],
+}
+
+/// Runs one track; its number decides whether its target is taken out for the question of "none".
+pub fn ask(template: &Value, track: &Track, approach: usize, number: usize) -> Result<Answers, String> {
+    let told = |error: whither::Error| error.to_string();
+    let mut answers = Answers::default();
+    let samples = &track.samples[..approach];
+    let end = samples[approach - 1].time;
+    let scenario = track.scenario(template, &Value::Null).map_err(told)?;
+    let mut predictor = Predictor::new(&scenario).map_err(told)?;
+    for sample in &samples[..approach - 1] {
+        predictor.observe(sample.time, &sample.position).map_err(told)?;
+        let Some(remaining) = predictor.remaining() else { continue };
+        let true_time = end - sample.time;
+        let within = remaining.low <= true_time && true_time <= remaining.high;
+        let found = [1.0, (remaining.mean - true_time).abs(), f64::from(u8::from(within))];
+        answers.when.iter_mut().zip(found).for_each(|(to, from)| *to += from);
+    }
+    let absent = (number.wrapping_mul(2_654_435_761) >> 7).is_multiple_of(2) && track.targets.len() > 1;
+    let mut shown = track.clone();
+    if absent {
+        shown.targets.remove(track.target);
+    }
+    for (answer, prior) in answers.none.iter_mut().zip(PRIORS) {
+        let mut scenario: Scenario = shown.scenario(template, &Value::Null).map_err(told)?;
+        scenario.none = prior;
+        let mut predictor = Predictor::new(&scenario).map_err(told)?;
+        let weight = 2.0 * if absent { prior } else { 1.0 - prior };
+        for sample in samples {
+            predictor.observe(sample.time, &sample.position).map_err(told)?;
+            let none = predictor.none();
+            let bin = &mut answer.bins[((none * BINS as f64) as usize).min(BINS - 1)];
+            bin.count += weight;
+            bin.predicted += weight * none;
+            bin.happened += if absent { weight } else { 0.0 };
+            if sample.time - samples[0].time <= 0.9 * (end - samples[0].time) + 1e-9 {
+                answer.late = Some((none, absent));
+            }
+        }
+    }
+    Ok(answers)
+}
+
+impl Sums {
+    /// Adds one track's answers.
+    pub fn add(&mut self, answers: &Answers) {
+        self.when.iter_mut().zip(answers.when).for_each(|(to, from)| *to += from);
+        for (k, answer) in answers.none.iter().enumerate() {
+            for (to, from) in self.bins[k].iter_mut().zip(answer.bins) {
+                to.count += from.count;
+                to.predicted += from.predicted;
+                to.happened += from.happened;
+            }
+            self.late[k].extend(answer.late);
+        }
+    }
+
+    fn row(&self) -> Vec<f64> {
+        let [samples, error, within] = self.when;
+        let mut row = vec![error / samples.max(1.0), within / samples.max(1.0)];
+        for (bins, late) in self.bins.iter().zip(&self.late) {
+            row.extend([calibration_error(bins), area_under_curve(late)]);
+        }
+        row
+    }
+}
+
+/// The probability that a track without its target gets a larger "none" than one with it.
+fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
+    let mut sorted = answers.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut present, mut pairs, mut absent, mut k) = (0.0, 0.0, 0.0, 0);
+    while k < sorted.len() {
+        let same = sorted[k..].iter().take_while(|answer| answer.0 == sorted[k].0).count();
+        let here = sorted[k..k + same].iter().filter(|answer| answer.1).count() as f64;
+        let others = same as f64 - here;
+        pairs += here * (present + 0.5 * others);
+        present += others;
+        absent += here;
+        k += same;
+    }
+    pairs / (present * absent).max(1.0)
+}
+
+/// Prints a table, and gives the same as JSON.
+pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN);
+    let mut header = vec!["set".to_owned(), "time to the entry: mean error, s".to_owned(), "within the 80%".to_owned()];
+    for prior in PRIORS {
+        header.push(format!("none at {prior}: calibration error"));
+        header.push("area under the curve at 90%".to_owned());
+    }
+    table.set_header(header);
+    let mut all = serde_json::Map::new();
+    for (name, sums) in sets {
+        let row = sums.row();
+        table.add_row([vec![name.clone()], row.iter().map(|x| format!("{x:.3}")).collect()].concat());
+        all.insert(
+            name.clone(),
+            json!({ "remaining": { "error": row[0], "within": row[1] }, "none": PRIORS.iter().enumerate().map(
+                |(k, prior)| json!({ "prior": prior, "calibration": row[2 + 2 * k], "area": row[3 + 2 * k] })).collect::<Vec<_>>() }),
+        );
+    }
+    println!("\nwhen, and none of them (the true target taken out of half of the tracks)\n{table}");
+    Json::Object(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::area_under_curve;
+
+    #[test]
+    fn the_area_counts_pairs_in_the_right_order() {
+        assert_eq!(area_under_curve(&[(0.1, false), (0.9, true), (0.2, false), (0.8, true)]), 1.0);
+        assert_eq!(area_under_curve(&[(0.1, true), (0.9, false)]), 0.0);
+        // (.5, .5) is a tie, (.9, .5) right: 1.5 of 2
+        assert_eq!(area_under_curve(&[(0.5, false), (0.5, true), (0.9, true)]), 0.75);
+    }
+}

@@ -1,0 +1,191 @@
+//! Priors that are learnt from what was chosen: counts with a Dirichlet prior, a rate of forgetting, and counts of their own
+//! after each last choice.
+//!
+//! With `a_i` the shares of the scenario's priors, `n_i` the counts and `m_ij` the counts after the choice `j` before,
+//! ```text
+//! p(i)          = (strength a_i + n_i) / (strength + sum n)
+//! p(i | last j) = (afterLast p(i) + m_ij) / (afterLast + sum_i m_ij)
+//! ```
+//! At every choice all counts shrink by the share `forgetting` before the new one is added, so that a habit that ended
+//! fades. What an application really knows better than any model of the hand is what its user usually chooses next.
+
+use super::destination::Destinations;
+use crate::error::{Code, Result};
+use crate::value::{Node, Value};
+use std::collections::BTreeMap;
+
+/// Counts below this are forgotten.
+const LEAST_COUNT: f64 = 1e-6;
+
+/// More pairs of last and next choice than this are not kept: the rarest half goes.
+const MOST_PAIRS: usize = 1 << 16;
+
+/// The scenario's key `learning`.
+///
+/// ```
+/// use whither::{Value, model::habits::Learning, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "strength": 5, "forgetting": 0.02, "afterLast": 3 }"#).unwrap();
+/// let learning = Learning::read(&Node::root(&value, "learning")).unwrap();
+/// assert_eq!(learning.to_value(), value);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Learning {
+    /// How many choices the scenario's priors are worth.
+    strength: f64,
+    /// Share of every count that is lost at each choice.
+    forgetting: f64,
+    /// How many choices the habit at large is worth against the habit after the last choice; none: the last choice is not
+    /// regarded.
+    after_last: Option<f64>,
+}
+
+/// What was chosen so far.
+///
+/// ```
+/// let scenario: whither::Scenario = serde_json::from_str(r#"{
+///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 0.1 },
+///     "arrival": { "type": "uniform", "from": 1, "to": 2 }, "learning": { "strength": 2 },
+///     "destinations": [{ "id": "home", "center": [0], "size": 1 }, { "id": "work", "center": [5], "size": 1 }]
+/// }"#).unwrap();
+/// let learning = scenario.learning.as_ref().unwrap();
+/// let mut habits = whither::model::habits::Habits::default();
+/// habits.chosen(learning, "work");
+/// habits.chosen(learning, "work");
+/// assert_eq!(habits.priors(learning, &scenario.destinations), [0.25, 0.75]); // (1, 1 + 2) of 4
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Habits {
+    counts: BTreeMap<String, f64>,
+    pairs: BTreeMap<(String, String), f64>,
+    last: Option<String>,
+}
+
+impl Learning {
+    /// Reads `{ strength, forgetting?, afterLast? }`.
+    ///
+    /// # Errors
+    /// `unknown-key`, `missing-key`, `wrong-type`, `not-finite`, `out-of-range`.
+    pub fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["strength", "forgetting", "afterLast"])?;
+        let forgetting = match fields.optional("forgetting") {
+            None => 0.0,
+            Some(node) => match node.number()? {
+                share if (0.0..1.0).contains(&share) => share,
+                _ => return Err(node.error(Code::OutOfRange, "must be at least 0 and less than 1")),
+            },
+        };
+        Ok(Self {
+            strength: fields.required("strength")?.positive()?,
+            forgetting,
+            after_last: fields.optional("afterLast").map(|node| node.positive()).transpose()?,
+        })
+    }
+
+    /// The key as it is written.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        Value::map([
+            ("strength", Value::Number(self.strength)),
+            ("forgetting", Value::Number(self.forgetting)),
+            ("afterLast", self.after_last.map_or(Value::Null, Value::Number)),
+        ])
+    }
+}
+
+impl Habits {
+    /// Counts a choice.
+    pub fn chosen(&mut self, learning: &Learning, id: &str) {
+        let keep = 1.0 - learning.forgetting;
+        let shrink = |count: &mut f64| {
+            *count *= keep;
+            *count >= LEAST_COUNT
+        };
+        self.counts.retain(|_, count| shrink(count));
+        self.pairs.retain(|_, count| shrink(count));
+        *self.counts.entry(id.to_owned()).or_default() += 1.0;
+        if let Some(last) = self.last.replace(id.to_owned())
+            && learning.after_last.is_some()
+        {
+            *self.pairs.entry((last, id.to_owned())).or_default() += 1.0;
+            if self.pairs.len() > MOST_PAIRS {
+                let mut counts: Vec<f64> = self.pairs.values().copied().collect();
+                counts.sort_by(f64::total_cmp);
+                let middle = counts[counts.len() / 2];
+                let mut surplus = self.pairs.len() / 2;
+                self.pairs.retain(|_, count| {
+                    let goes = *count <= middle && surplus > 0;
+                    surplus -= usize::from(goes);
+                    !goes
+                });
+            }
+        }
+    }
+
+    /// The priors of `destinations` as they are learnt; destinations that the scenario rules out stay ruled out.
+    #[must_use]
+    pub fn priors(&self, learning: &Learning, destinations: &Destinations) -> Vec<f64> {
+        let given = destinations.given_priors();
+        let total: f64 = given.iter().sum();
+        let possible = |i: usize, count: f64| if given[i] > 0.0 { count } else { 0.0 };
+        let mut at_large: Vec<f64> = destinations
+            .ids()
+            .enumerate()
+            .map(|(i, id)| {
+                learning.strength * given[i] / total + possible(i, self.counts.get(id).copied().unwrap_or(0.0))
+            })
+            .collect();
+        normalise(&mut at_large);
+        let (Some(weight), Some(last)) = (learning.after_last, &self.last) else { return at_large };
+        let mut key = (last.clone(), String::new());
+        let mut after: Vec<f64> = Vec::with_capacity(at_large.len());
+        for (i, (id, share)) in destinations.ids().zip(&at_large).enumerate() {
+            id.clone_into(&mut key.1);
+            after.push(weight * share + possible(i, self.pairs.get(&key).copied().unwrap_or(0.0)));
+        }
+        normalise(&mut after);
+        after
+    }
+
+    /// What a snapshot keeps.
+    #[must_use]
+    pub fn save(&self) -> Value {
+        let counts = self.counts.iter().map(|(id, count)| Value::List(vec![Value::text(id), Value::exact(*count)]));
+        let pairs = self
+            .pairs
+            .iter()
+            .map(|((last, id), count)| Value::List(vec![Value::text(last), Value::text(id), Value::exact(*count)]));
+        Value::map([
+            ("counts", Value::List(counts.collect())),
+            ("pairs", Value::List(pairs.collect())),
+            ("last", self.last.as_deref().map_or(Value::Null, Value::text)),
+        ])
+    }
+
+    /// The habits that [`Habits::save`] wrote.
+    ///
+    /// # Errors
+    /// Those of reading a value.
+    pub fn load(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["counts", "pairs", "last"])?;
+        let mut habits = Self::default();
+        for item in fields.required("counts")?.items()? {
+            let parts: Vec<Node<'_>> = item.items()?.collect();
+            let [id, count] = parts.as_slice() else { return Err(item.error(Code::WrongLength, "must have 2 items")) };
+            habits.counts.insert(id.text()?.to_owned(), count.exact()?);
+        }
+        for item in fields.required("pairs")?.items()? {
+            let parts: Vec<Node<'_>> = item.items()?.collect();
+            let [last, id, count] = parts.as_slice() else {
+                return Err(item.error(Code::WrongLength, "must have 3 items"));
+            };
+            habits.pairs.insert((last.text()?.to_owned(), id.text()?.to_owned()), count.exact()?);
+        }
+        habits.last = fields.optional("last").map(|last| last.text().map(str::to_owned)).transpose()?;
+        Ok(habits)
+    }
+}
+
+fn normalise(weights: &mut [f64]) {
+    let total: f64 = weights.iter().sum();
+    weights.iter_mut().for_each(|weight| *weight /= total);
+}
