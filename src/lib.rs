@@ -125,3 +125,8 @@ pub use posterior::arrival_time::Arrival;
 pub use predictor::{Best, Predictor, Remaining};
 pub use scenario::Scenario;
 pub use value::Value;
+
+/// The README's Rust code is run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
