@@ -19,7 +19,7 @@ const PAPERS: readonly Paper[] = [
   },
   {
     title: "Destination-directed trajectory modeling and prediction using conditionally Markov sequences",
-    source: "R. Rezaie, X. R. Li. WNYISPW, 2018; arXiv 1811.08021",
+    source: "R. Rezaie, X. R. Li. IEEE, 2018; arXiv 1811.08021",
     address: "https://arxiv.org/abs/1811.08021",
   },
 ];
