@@ -88,7 +88,7 @@
 //!
 //! # Errors in the printed papers
 //!
-//! Each was checked numerically; the corrected form is what is built, and `tests/native/errata.rs` shows the difference.
+//! Each was checked numerically; the corrected form is what is built, .
 //!
 //! - Liang (13): the prediction inside the pseudo-observation is `F(h) mu + M(h)`; the printed `F(h) mu - M(h)` breaks the
 //!   identity with Algorithm 1 whenever `M` is not zero.

@@ -4,7 +4,7 @@
 //! `x_k`, itself conditioned on the pseudo-observation, gives the observation's density (13).
 //!
 //! The printed (13) has `F(h) mu - M(h)` where the prediction of `x_k` is `F(h) mu + M(h)`. With the printed sign
-//! Algorithm 2 contradicts Algorithm 1 whenever `M` is not zero; here it is put right (`tests/native/errata.rs` shows both).
+//! Algorithm 2 contradicts Algorithm 1 whenever `M` is not zero; here it is put right.
 //!
 //! ```
 //! use whither::{Predictor, Scenario};

@@ -1,11 +1,11 @@
 //! Tests of the whole library, natively: golden cases, identities, errors, the life of a predictor.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::type_complexity)]
 
 mod documentation;
 mod errors;
 mod golden;
-mod identities;
 mod habits;
+mod identities;
 mod life;
 mod numerics;
 mod pointing;

@@ -77,11 +77,11 @@ fn covariances_stay_positive_definite_over_a_million_observations() {
                     time += step(k);
                     predictor.observe(time, &[20.0 * (time * 0.1).sin() + noise.next()]).unwrap();
                     observations += 1;
-                    if k < 100 || k % 1000 == 0 {
-                        if let Err(error) = check_all(&mut predictor) {
-                            wrong.push(format!("{kind} {ratio:e} {rhythm} at {k}: {error}"));
-                            break;
-                        }
+                    if (k < 100 || k % 1000 == 0)
+                        && let Err(error) = check_all(&mut predictor)
+                    {
+                        wrong.push(format!("{kind} {ratio:e} {rhythm} at {k}: {error}"));
+                        break;
                     }
                 }
             }
