@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::type_complexity)]
 
 mod documentation;
+mod errata;
 mod errors;
 mod golden;
 mod habits;
 mod identities;
+mod imports;
 mod life;
 mod numerics;
 mod pointing;

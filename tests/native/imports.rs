@@ -1,0 +1,170 @@
+//! What may import what (design, 3), how long a file may be, and that nothing outside tests can panic by name: read from the
+//! sources line by line.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Each part of the crate and the parts that it may name with `crate::`. `error` and `value` are at the bottom.
+const RUST: [(&str, &[&str]); 13] = [
+    ("error", &[]),
+    ("value", &[]),
+    ("math", &["math"]),
+    ("model", &["math", "model"]),
+    ("likelihood", &["math", "model", "likelihood"]),
+    ("conditionally_markov", &["math", "model", "conditionally_markov"]),
+    ("posterior", &["math", "model", "likelihood", "posterior"]),
+    ("scenario", &["math", "model", "likelihood"]),
+    ("pointer", &["scenario"]),
+    ("predictor", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
+    ("snapshot", &["model", "likelihood", "posterior", "scenario", "predictor"]),
+    ("study", &["math", "model", "likelihood", "scenario", "predictor", "snapshot", "study"]),
+    ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "wasm"]),
+];
+
+/// Engines never import one another.
+const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation", "single_filter"];
+
+/// Who may name the generated code and its one importer.
+const JAVASCRIPT: [(&str, &[&str]); 2] = [
+    ("./generated/", &["glue", "embedded"]),
+    ("./glue.js", &["index", "slim", "workerd", "exports", "predictor", "sequence", "pointer"]),
+];
+
+const LONGEST: usize = 450;
+
+/// Files that are longer than that and have to be cut; they may not grow.
+const TO_BE_CUT: [(&str, usize); 4] = [
+    ("src/likelihood/pointing/parameters.rs", 455),
+    ("src/likelihood/telescoped/mod.rs", 581),
+    ("src/value.rs", 457),
+    ("tests/native/identities.rs", 500),
+];
+
+fn files(folder: &str, extension: &str) -> Vec<(String, String)> {
+    fn walk(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                walk(&path, extension, found);
+            } else if path.to_str().unwrap().ends_with(extension) {
+                found.push(path);
+            }
+        }
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut found = Vec::new();
+    walk(&root.join(folder), extension, &mut found);
+    found.sort();
+    assert!(!found.is_empty(), "{folder}");
+    let named = |path: PathBuf| {
+        let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+        (name, std::fs::read_to_string(&path).unwrap())
+    };
+    found.into_iter().map(named).collect()
+}
+
+/// The Rust sources without their tests, comments left out.
+fn rust() -> Vec<(String, Vec<String>)> {
+    let is_test = |name: &str| name.ends_with("/tests.rs");
+    let code = |text: &str| {
+        let lines = text.lines().take_while(|line| *line != "#[cfg(test)]");
+        lines.filter(|line| !line.trim_start().starts_with("//")).map(str::to_owned).collect()
+    };
+    files("src", ".rs").into_iter().filter(|(name, _)| !is_test(name)).map(|(name, text)| (name, code(&text))).collect()
+}
+
+/// The words after each `prefix::` in a line.
+fn named<'a>(line: &'a str, prefix: &'a str) -> impl Iterator<Item = &'a str> {
+    let word = |rest: &'a str| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+    line.split(prefix).skip(1).map(word)
+}
+
+#[test]
+fn imports_go_one_way() {
+    let legal: BTreeMap<&str, &[&str]> = RUST.into_iter().collect();
+    let mut wrong = Vec::new();
+    for (name, lines) in rust() {
+        let part = name["src/".len()..].split(['/', '.']).next().unwrap().to_owned();
+        if part == "lib" {
+            continue;
+        }
+        let may = legal.get(part.as_str()).unwrap_or_else(|| panic!("{name} belongs to no part"));
+        for line in &lines {
+            for import in named(line, "crate::") {
+                let bottom =
+                    ["error", "value"].contains(&import) && (part != "error" && part != "value" || import == "error");
+                // a name from the crate's public root
+                let root = part == "wasm" && import.chars().next().is_some_and(|c| c.is_uppercase() || c == '{');
+                if !bottom && !root && import != part && !may.contains(&import) {
+                    wrong.push(format!("{name}: {part} -> {import}: {}", line.trim()));
+                }
+            }
+        }
+        let engine = ENGINES.iter().find(|engine| name == format!("src/likelihood/{engine}.rs"));
+        if let Some(engine) = engine {
+            let others = |line: &&String| {
+                line.trim_start().starts_with("use ")
+                    && ENGINES.iter().any(|other| other != engine && line.contains(other))
+            };
+            wrong.extend(lines.iter().filter(others).map(|line| format!("{name}: {line}")));
+        }
+        if part != "wasm" && part != "lib" {
+            let boundary = lines.iter().filter(|line| line.contains("wasm_bindgen") || line.contains("js_sys"));
+            wrong.extend(boundary.map(|line| format!("{name}: {line}")));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn javascript_reaches_the_generated_code_through_one_file() {
+    let mut wrong = Vec::new();
+    for (name, text) in files("js", ".ts") {
+        let file = name["js/".len()..].trim_end_matches(".ts").to_owned();
+        let imports = text.split(['\n', ';']).filter(|line| line.contains(" from \""));
+        for line in imports {
+            for (import, who) in JAVASCRIPT {
+                if line.contains(&format!("from \"{import}")) && !who.contains(&file.as_str()) {
+                    wrong.push(format!("{name}: {}", line.trim()));
+                }
+            }
+        }
+    }
+    for (name, text) in files("www", ".ts") {
+        for line in
+            text.lines().filter(|line| line.contains(" from \"../") && (line.contains("js/") || line.contains("dist/")))
+        {
+            wrong.push(format!("{name}: {line}: the page imports the package by its name"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn no_file_is_long() {
+    let long: Vec<String> = files("src", ".rs")
+        .into_iter()
+        .chain(files("js", ".ts"))
+        .chain(files("tests/native", ".rs"))
+        .filter(|(name, _)| !name.ends_with("tests.rs"))
+        .map(|(name, text)| (name, text.lines().take_while(|line| *line != "#[cfg(test)]").count()))
+        .map(|(name, lines)| {
+            let limit = TO_BE_CUT.iter().find(|(file, _)| *file == name).map_or(LONGEST, |(_, limit)| *limit);
+            (name, lines, limit)
+        })
+        .filter(|(_, lines, limit)| lines > limit)
+        .map(|(name, lines, limit)| format!("{name}: {lines} lines, at most {limit}"))
+        .collect();
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}
+
+#[test]
+fn nothing_outside_tests_panics_by_name() {
+    let words = [".unwrap()", ".expect(", "panic!(", "unreachable!(", "todo!(", "unimplemented!("];
+    let mut wrong = Vec::new();
+    for (name, lines) in rust() {
+        let found = lines.iter().filter(|line| words.iter().any(|word| line.contains(word)));
+        wrong.extend(found.map(|line| format!("{name}: {}", line.trim())));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
