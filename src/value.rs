@@ -7,7 +7,10 @@
 use crate::error::{Code, Error, Result};
 use std::fmt::Write;
 
+mod quote;
 mod serial;
+
+pub use quote::{number, quote};
 
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
 /// the smallest deviation: what is computed from such numbers stays finite.
@@ -117,28 +120,6 @@ impl Value {
             }
             Self::Map(_) => "an object".to_owned(),
         }
-    }
-}
-
-/// A text in quotation marks, cut where it is long.
-#[must_use]
-pub fn quote(text: &str) -> String {
-    let cut: String = text.chars().take(40).collect();
-    let more = if cut.len() < text.len() { "..." } else { "" };
-    format!("\"{cut}{more}\"")
-}
-
-/// A number as JavaScript would print it, nearly.
-#[must_use]
-pub fn number(x: f64) -> String {
-    if x.is_nan() {
-        "NaN".to_owned()
-    } else if x.is_infinite() {
-        (if x > 0.0 { "Infinity" } else { "-Infinity" }).to_owned()
-    } else if x != 0.0 && (x.abs() < 1e-6 || x.abs() >= 1e21) {
-        format!("{x:e}")
-    } else {
-        format!("{x}")
     }
 }
 

@@ -129,6 +129,12 @@ impl Plan {
         if self.horizons[grid] { time + elapsed } else { time }
     }
 
+    /// Whether some destination of `grid` has a prior above zero.
+    #[must_use]
+    pub fn is_possible(&self, grid: usize) -> bool {
+        self.possible[grid]
+    }
+
     /// Whether some node that has weight, of a destination that has, still lies after `elapsed`.
     #[must_use]
     pub fn is_alive(&self, elapsed: f64) -> bool {

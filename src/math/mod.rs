@@ -8,4 +8,5 @@ pub mod log_sum_exp;
 pub(crate) mod mixture;
 pub mod quadrature;
 pub mod random;
+pub mod small_root;
 pub mod van_loan;

@@ -14,13 +14,13 @@ use nalgebra::{DMatrix, DVector};
 /// A mixture of Gaussians in the making: each part moves the mean and widens the covariance by its distance from it, so
 /// nothing is subtracted and the covariance stays positive.
 #[derive(Default)]
-struct Moments {
+pub(super) struct Moments {
     total: f64,
-    mixture: Option<Gaussian>,
+    pub mixture: Option<Gaussian>,
 }
 
 impl Moments {
-    fn add(&mut self, weight: f64, mean: DVector<f64>, covariance: &DMatrix<f64>) {
+    pub fn add(&mut self, weight: f64, mean: DVector<f64>, covariance: &DMatrix<f64>) {
         let before = self.total;
         self.total += weight;
         let Some(mixture) = &mut self.mixture else {

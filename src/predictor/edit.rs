@@ -70,7 +70,8 @@ impl Predictor {
         self.replace(changed)
     }
 
-    fn replace(&mut self, changed: Destinations) -> Result<()> {
+    fn replace(&mut self, mut changed: Destinations) -> Result<()> {
+        changed.renumber();
         self.scenario.check_destinations(&changed)?;
         if self.track.is_none() {
             self.destinations = Arc::new(changed);

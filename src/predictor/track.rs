@@ -56,10 +56,12 @@ pub(super) struct Observed<'a> {
 }
 
 impl Observed<'_> {
-    /// The variances in each axis, where the noise of each is its own.
+    /// The variances in each axis, where the noise of each that was observed is its own.
     fn variances(&self) -> Option<[f64; 3]> {
         let n = self.noise.nrows();
-        let own = n <= 3 && (0..n).all(|i| (0..i).all(|j| self.noise[(i, j)] == 0.0));
+        let seen = |i: usize| self.position.get(i).is_some_and(Option::is_some);
+        let apart = |i: usize, j: usize| self.noise[(i, j)] == 0.0 || !seen(i) || !seen(j);
+        let own = n <= 3 && (0..n).all(|i| (0..i).all(|j| apart(i, j)));
         own.then(|| std::array::from_fn(|k| if k < n { self.noise[(k, k)] } else { 0.0 }))
     }
 }
@@ -256,7 +258,7 @@ impl Track {
         only: Option<usize>,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return Some(pointing.state(destinations, &posterior.shares(destinations, only), later));
+            return pointing.state(destinations, &posterior.shares(destinations, only), later);
         }
         let (movement, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.state(believed, movement, destinations, &posterior.shares(destinations, only), later)
@@ -270,7 +272,7 @@ impl Track {
         destinations: &Destinations,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return Some(pointing.initial_state(destinations, &posterior.shares(destinations, None)));
+            return pointing.initial_state(destinations, &posterior.shares(destinations, None));
         }
         let (_, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.initial_state(believed, &posterior.shares(destinations, None))
@@ -294,11 +296,12 @@ impl Track {
             }
             Followed::Telescoped { now, before, dense } => {
                 let Some(plan) = scenario.engine.plan(destinations, &self.start) else { return };
-                now.replan(destinations, &plan);
+                let separately = scenario.observation.is_position();
+                now.replan(destinations, &plan, separately);
                 *before = match before.take() {
                     _ if plan.is_alive(now.elapsed()) => None,
                     Some(mut before) => {
-                        before.replan(destinations, &plan);
+                        before.replan(destinations, &plan, separately);
                         Some(before)
                     }
                     None => Some(now.clone()),
@@ -323,7 +326,15 @@ impl Track {
             }
             Followed::Pointing(pointing) => (pointing.course().save(), Value::Null),
         };
+        let shifts = match &self.followed {
+            Followed::Telescoped { now, before, .. } => {
+                let before = before.as_ref().map_or([0.0; 2], |before| before.shifts());
+                Value::exact_numbers(now.shifts().iter().chain(&before))
+            }
+            _ => Value::Null,
+        };
         Value::map([
+            ("shifts", shifts),
             ("firstTime", Value::exact(self.first_time)),
             ("time", Value::exact(self.time)),
             ("start", Value::exact_numbers(&self.start)),
@@ -337,7 +348,7 @@ impl Track {
     /// # Errors
     /// Those of reading a value.
     pub(crate) fn load(node: &Node<'_>, scenario: &Scenario, destinations: &Destinations) -> Result<Self> {
-        let fields = node.fields(&["firstTime", "time", "start", "movement", "frozen"])?;
+        let fields = node.fields(&["shifts", "firstTime", "time", "start", "movement", "frozen"])?;
         let start = fields.required("start")?.exact_numbers(destinations.dimensions())?;
         let saved = fields.required("movement")?;
         let followed = match &scenario.engine {
@@ -349,12 +360,14 @@ impl Track {
                 let frozen = fields.optional("frozen").map(|frozen| load(&frozen).map(Box::new)).transpose()?;
                 let movement = load(&saved)?;
                 if telescopes(scenario) {
-                    let resume = |movement: &Movement| {
+                    let shifts = fields.required("shifts")?.exact_numbers(4)?;
+                    let resume = |movement: &Movement, shifts: [f64; 2]| {
                         let separately = scenario.observation.is_position();
-                        Box::new(Telescoped::resume(&scenario.motion, destinations, movement, separately))
+                        let resumed = Telescoped::resume(&scenario.motion, destinations, movement, separately);
+                        Box::new(resumed.with_shifts(shifts))
                     };
-                    let before = frozen.as_deref().map(resume);
-                    Followed::Telescoped { now: resume(&movement), before, dense: None }
+                    let before = frozen.as_deref().map(|before| resume(before, [shifts[2], shifts[3]]));
+                    Followed::Telescoped { now: resume(&movement, [shifts[0], shifts[1]]), before, dense: None }
                 } else {
                     Followed::Papers { movement, frozen }
                 }

@@ -1,8 +1,10 @@
-//! The filter of the pointing model: constant velocity whose noise grows with the speed, each axis a 2 by 2 covariance.
+//! The filter of the pointing model: constant velocity whose noise grows with the speed, each axis a root of a
+//! 4 by 4 covariance, that of the first state and the state now.
 
 use super::parameters::Parameters;
 use super::{Vector, dot, vector};
 use crate::error::Result;
+use crate::math::small_root::{condition, triangularise};
 use crate::value::{Node, Value};
 
 /// The shortest step that the filter takes, in seconds: repeated times must not make the velocity certain.
@@ -23,52 +25,62 @@ pub struct Axis {
     pub first_covariance: [f64; 3],
     /// Covariance of the first state (rows) with the state now (columns), row by row.
     pub tie: [f64; 4],
+    /// A root of all of them, lower triangular: the first state's rows, then those of the state now.
+    root: [[f64; 4]; 4],
 }
 
 impl Axis {
     fn begin(position: f64, variance: f64, speed_variance: f64) -> Self {
-        let covariance = [variance, 0.0, speed_variance];
-        Self {
-            position,
-            velocity: 0.0,
-            covariance,
-            first: [position, 0.0],
-            first_covariance: covariance,
-            tie: [variance, 0.0, 0.0, speed_variance],
+        let (deviation, speed) = (variance.sqrt(), speed_variance.sqrt());
+        let mut root = [[0.0; 4]; 4];
+        for (row, column, entry) in [(0, 0, deviation), (1, 1, speed), (2, 0, deviation), (3, 1, speed)] {
+            root[row][column] = entry;
         }
+        Self::of(root, [position, 0.0], [position, 0.0])
+    }
+
+    fn of(root: [[f64; 4]; 4], first: [f64; 2], [position, velocity]: [f64; 2]) -> Self {
+        let (covariance, tie) = ([0.0; 3], [0.0; 4]);
+        let mut axis = Self { position, velocity, covariance, first, first_covariance: covariance, tie, root };
+        axis.square();
+        axis
+    }
+
+    /// All covariances, from the root.
+    fn square(&mut self) {
+        let entry = |i: usize, j: usize| (0..=i.min(j)).map(|q| self.root[i][q] * self.root[j][q]).sum::<f64>();
+        self.covariance = [entry(2, 2), entry(2, 3), entry(3, 3)];
+        self.first_covariance = [entry(0, 0), entry(0, 1), entry(1, 1)];
+        self.tie = [entry(0, 2), entry(0, 3), entry(1, 2), entry(1, 3)];
     }
 
     fn predict(&mut self, step: f64, noise: f64) {
-        let [pp, pv, vv] = self.covariance;
         self.position += step * self.velocity;
-        self.covariance = [
-            pp + 2.0 * step * pv + step * step * vv + noise * step.powi(3) / 3.0,
-            pv + step * vv + noise * step * step / 2.0,
-            vv + noise * step,
+        let velocity = self.root[3];
+        self.root[2].iter_mut().zip(velocity).for_each(|(position, velocity)| *position += step * velocity);
+        // beside what the state now has of its own, a root of the noise: the integral of white noise over the step
+        let scale = (noise * step).sqrt();
+        let third = step / 3f64.sqrt();
+        let mut own = [
+            [self.root[2][2], self.root[2][3], scale * third, 0.0],
+            [velocity[2], velocity[3], scale * 0.75f64.sqrt(), scale * 0.5],
         ];
-        self.tie[0] += step * self.tie[1];
-        self.tie[2] += step * self.tie[3];
+        triangularise(&mut own, 2, 4);
+        for (row, own) in self.root[2..].iter_mut().zip(own) {
+            row[2..].copy_from_slice(&own[..2]);
+        }
+        self.square();
     }
 
     fn correct(&mut self, observed: f64, variance: f64) {
-        let [pp, pv, vv] = self.covariance;
-        let total = pp + variance;
-        let (k0, k1) = (pp / total, pv / total);
         let error = observed - self.position;
-        self.position += k0 * error;
-        self.velocity += k1 * error;
-        self.covariance = [pp * (1.0 - k0), pv * (1.0 - k0), vv - k1 * pv];
-        let gain = [self.tie[0] / total, self.tie[2] / total];
-        self.first[0] += gain[0] * error;
-        self.first[1] += gain[1] * error;
-        self.first_covariance[0] -= gain[0] * self.tie[0];
-        self.first_covariance[1] -= gain[0] * self.tie[2];
-        self.first_covariance[2] -= gain[1] * self.tie[2];
-        for row in [0, 2] {
-            let with_position = self.tie[row];
-            self.tie[row] -= k0 * with_position;
-            self.tie[row + 1] -= k1 * with_position;
-        }
+        let (gain, _) = condition(&mut self.root, 4, 2, variance);
+        let moved = gain.map(|gain| gain * error);
+        self.first[0] += moved[0];
+        self.first[1] += moved[1];
+        self.position += moved[2];
+        self.velocity += moved[3];
+        self.square();
     }
 }
 
@@ -145,10 +157,8 @@ impl Course {
         let mut numbers = self.start[..self.dimensions].to_vec();
         for axis in &self.axes[..self.dimensions] {
             numbers.extend([axis.position, axis.velocity]);
-            numbers.extend(axis.covariance);
             numbers.extend(axis.first);
-            numbers.extend(axis.first_covariance);
-            numbers.extend(axis.tie);
+            numbers.extend(axis.root.as_flattened());
         }
         Value::map([
             ("elapsed", Value::exact(self.elapsed)),
@@ -162,20 +172,14 @@ impl Course {
     /// # Errors
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        const EACH: usize = 14;
+        const EACH: usize = 20;
         let fields = node.fields(&["elapsed", "observations", "axes"])?;
         let numbers = fields.required("axes")?.exact_numbers(dimensions * (1 + EACH))?;
         let (start, rest) = numbers.split_at(dimensions);
         let mut axes = [Axis::begin(0.0, 0.0, 0.0); 3];
         for (axis, n) in axes.iter_mut().zip(rest.chunks_exact(EACH)) {
-            *axis = Axis {
-                position: n[0],
-                velocity: n[1],
-                covariance: [n[2], n[3], n[4]],
-                first: [n[5], n[6]],
-                first_covariance: [n[7], n[8], n[9]],
-                tie: [n[10], n[11], n[12], n[13]],
-            };
+            let root = std::array::from_fn(|i| std::array::from_fn(|j| n[4 + 4 * i + j]));
+            *axis = Axis::of(root, [n[2], n[3]], [n[0], n[1]]);
         }
         Ok(Self {
             dimensions,

@@ -16,6 +16,7 @@
 
 pub(crate) mod course;
 pub(crate) mod endpoint;
+pub mod entry_time;
 pub(crate) mod evidence;
 pub mod parameters;
 
@@ -130,7 +131,9 @@ impl Pointing {
         into.extend(each.map(|(i, (endpoint, start))| {
             let offset = minus(&vector(destinations.center(i)), &self.course.start);
             let seen = direction.log_evidence(&offset, &destinations.kind(i).covariance);
-            power * (endpoint - start) + seen
+            let whole = power * (endpoint - start) + seen;
+            // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
+            if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
         }));
     }
 

@@ -18,13 +18,15 @@ pub struct Nodes {
     pub weights: Vec<f64>,
     /// Whether the times count from now.
     pub from_now: bool,
+    /// Whether some destination that has them has a prior above zero.
+    pub possible: bool,
 }
 
 impl Nodes {
-    /// Whether some node with weight lies after `elapsed`.
+    /// Whether some node with weight, of a destination with one, lies after `elapsed`.
     pub fn is_alive(&self, elapsed: f64) -> bool {
         let mut nodes = self.times.iter().zip(&self.weights);
-        nodes.any(|(&time, &weight)| weight > 0.0 && (self.from_now || time > elapsed))
+        self.possible && nodes.any(|(&time, &weight)| weight > 0.0 && (self.from_now || time > elapsed))
     }
 
     /// The weights in blocks, zero for the nodes that have passed at `elapsed`.
@@ -140,6 +142,7 @@ impl Classes {
             times: nodes.times.clone(),
             weights: nodes.log_weights.iter().map(|w| w.exp()).collect(),
             from_now: plan.is_horizon(grid),
+            possible: plan.is_possible(grid),
         });
         let mut classes = Self {
             dimensions: d,

@@ -10,18 +10,22 @@
 //!
 //! | part | what |
 //! |---|---|
+//! | `candidate` | one noise candidate: a filter, by axis or whole |
 //! | `separable` | the filters, `m_n, V_n, u_n, U_n` where axes do not mix |
 //! | `coupled` | the same where they do |
 //! | `classes` | the destinations in flat arrays |
 //! | `terms` | the coefficients |
+//! | `whole` | from separate axes to the whole state and back |
 //! | `math::mixture` | the sum |
 //!
 //! [`super::pseudo_observation`] says the same densely, one pair at a time; a test holds the two together.
 
+mod candidate;
 pub(crate) mod classes;
 pub(crate) mod coupled;
 pub(crate) mod separable;
 pub(crate) mod terms;
+mod whole;
 
 use super::Method;
 use super::candidates::{Movement, advance_filter};
@@ -30,46 +34,15 @@ use crate::error::Result;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement};
 use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::AXES;
 use crate::model::destination::Destinations;
-use crate::model::motion::{Motion, MotionModel, Transition};
-use classes::{Class, Classes, End, Nodes};
+use crate::model::motion::Motion;
+use candidate::{Candidate, Source, Tables};
+use classes::{Class, Classes};
 use coupled::Coupled;
-use nalgebra::{DMatrix, DVector};
-use separable::{Axes, AxisEnd, AxisFilter, MOST, NodeTable};
+use separable::MOST;
 use std::sync::Arc;
-use terms::{Sight, Work};
-
-/// The movement under one noise candidate.
-#[derive(Clone, Debug)]
-struct Candidate {
-    model: Arc<dyn MotionModel>,
-    /// `w_c`.
-    weight: f64,
-    source: Source,
-    tables: Tables,
-}
-
-#[derive(Clone, Debug)]
-enum Source {
-    Separable { first: Axes, now: Axes },
-    Coupled(Box<Coupled>),
-}
-
-/// Steps to the nodes, kept as long as they stay the same.
-#[derive(Clone, Debug, Default)]
-struct Tables {
-    now: StepsTo,
-    start: StepsTo,
-}
-
-#[derive(Clone, Debug, Default)]
-struct StepsTo {
-    /// Which nodes, and how much of their time had passed.
-    of: Option<(usize, u64)>,
-    axes: [NodeTable; MOST],
-    whole: Vec<Transition>,
-}
+use terms::Work;
+use whole::{axes_of, coupled_of};
 
 /// A movement so far, with everything that turns it into probabilities.
 ///
@@ -98,8 +71,10 @@ pub struct Telescoped {
     elapsed: f64,
     /// `k`.
     observations: u64,
-    /// A whole number near the logarithm of the weights' sum.
+    /// A whole number near the logarithm of the weights' sum, for the probabilities as they stand.
     shift: f64,
+    /// The same as the probabilities, once they were told, suggest it for the next observation.
+    next_shift: f64,
     weights: Vec<Block>,
     node_weights: Vec<Block>,
     work: Work,
@@ -155,6 +130,7 @@ impl Telescoped {
             elapsed: 0.0,
             observations: 1,
             shift: 0.0,
+            next_shift: 0.0,
             node_weights: Vec::new(),
             work: Work::default(),
         }
@@ -167,7 +143,7 @@ impl Telescoped {
                 candidate.source = Source::Coupled(Box::new(coupled_of(first, now)));
             }
         }
-        self.replan(destinations, plan);
+        self.place(destinations, plan);
     }
 
     /// `t_k - t_1`.
@@ -207,6 +183,7 @@ impl Telescoped {
         }
         self.elapsed = elapsed;
         self.observations += 1;
+        self.shift = self.next_shift;
         true
     }
 
@@ -231,6 +208,7 @@ impl Telescoped {
         }
         self.elapsed = elapsed;
         self.observations += 1;
+        self.shift = self.next_shift;
         Ok(())
     }
 
@@ -257,8 +235,45 @@ impl Telescoped {
         telescoped
     }
 
-    /// Other destinations, in mid-movement.
-    pub fn replan(&mut self, destinations: &Destinations, plan: &Plan) {
+    /// What the last bits of the probabilities depend on beside the movement, for a snapshot.
+    #[must_use]
+    pub const fn shifts(&self) -> [f64; 2] {
+        [self.shift, self.next_shift]
+    }
+
+    /// Takes back what [`Telescoped::shifts`] gave.
+    #[must_use]
+    pub const fn with_shifts(mut self, [shift, next_shift]: [f64; 2]) -> Self {
+        (self.shift, self.next_shift) = (shift, next_shift);
+        self
+    }
+
+    /// Other destinations, in mid-movement. `separately` is as in [`Telescoped::begin`]: axes that had to be taken together
+    /// for the destinations before may not have to for these.
+    pub fn replan(&mut self, destinations: &Destinations, plan: &Plan, separately: bool) {
+        if separately && !self.is_separable() {
+            self.separate(destinations, plan);
+        }
+        self.place(destinations, plan);
+    }
+
+    /// From now on each axis on its own, if that can be.
+    fn separate(&mut self, destinations: &Destinations, plan: &Plan) {
+        let axes = self.candidates.iter().map(|candidate| match &candidate.source {
+            Source::Coupled(coupled) => axes_of(candidate.model.as_ref(), &coupled.first, &coupled.filter),
+            Source::Separable { first, now } => Some((*first, *now)),
+        });
+        let Some(axes) = axes.collect::<Option<Vec<_>>>() else { return };
+        if !Classes::new(destinations, plan, true).separable {
+            return;
+        }
+        for (candidate, (first, now)) in self.candidates.iter_mut().zip(axes) {
+            candidate.source = Source::Separable { first, now };
+        }
+    }
+
+    fn place(&mut self, destinations: &Destinations, plan: &Plan) {
+        self.shift = self.next_shift;
         self.classes = Arc::new(Classes::new(destinations, plan, self.is_separable()));
         if self.is_separable() && !self.classes.separable {
             return self.couple(destinations, plan);
@@ -296,10 +311,9 @@ impl Telescoped {
             return None;
         }
         // against it "none", whose ratio of densities is one, under the same shift
-        let level = self.candidates.iter().map(|candidate| candidate.weight * self.lead(candidate).exp2()).sum::<f64>();
-        let others = none / (1.0 - none) * level;
-        let (scale, none) = if others > 0.0 {
-            let log = others.log2() - self.shift - total.log2();
+        let (scale, none) = if none > 0.0 {
+            let level = (none / (1.0 - none)).log2() + self.log2_level();
+            let log = level - self.shift - total.log2();
             ((1.0 + log.exp2()).recip(), (1.0 + (-log).exp2()).recip())
         } else {
             (1.0, 0.0)
@@ -308,9 +322,7 @@ impl Telescoped {
         self.classes.scatter(&self.weights, into);
         into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
         let beyond = total.log2().round();
-        if beyond.abs() > 8.0 {
-            self.shift += beyond;
-        }
+        self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
         Some(none)
     }
 
@@ -323,6 +335,13 @@ impl Telescoped {
         self.classes.scatter(&logs, into);
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         into.iter_mut().for_each(|log| *log = *log * std::f64::consts::LN_2 + evidence);
+    }
+
+    /// The sum of the candidates' weights times what their evidence has over that of the first one, as a power of two.
+    fn log2_level(&self) -> f64 {
+        let top = self.candidates.iter().map(|candidate| self.lead(candidate)).fold(f64::NEG_INFINITY, f64::max);
+        let each = self.candidates.iter().map(|candidate| candidate.weight * (self.lead(candidate) - top).exp2());
+        top + each.sum::<f64>().log2()
     }
 
     /// What a candidate's evidence has over that of the first one, as a power of two.
@@ -370,212 +389,4 @@ impl Telescoped {
             candidate.see(class.nodes, nodes, end, elapsed, &self.node_weights, lead, &mut self.work);
         }
     }
-}
-
-impl Candidate {
-    fn log_evidence(&self) -> f64 {
-        match &self.source {
-            Source::Separable { now, .. } => now.log_evidence,
-            Source::Coupled(coupled) => coupled.filter.evidence(0),
-        }
-    }
-
-    /// `p(x_1 | y_1)` and the filter, of the whole state.
-    fn whole(&self) -> (Gaussian, Filter) {
-        match &self.source {
-            Source::Separable { first, now } => {
-                let Coupled { first, filter } = coupled_of(first, now);
-                (first, filter)
-            }
-            Source::Coupled(coupled) => (coupled.first.clone(), coupled.filter.clone()),
-        }
-    }
-
-    /// The position now.
-    fn position(&self) -> [f64; AXES] {
-        match &self.source {
-            Source::Separable { now, .. } => now.filters.map(|filter| filter.mean[0]),
-            Source::Coupled(coupled) => {
-                let s = coupled.filter.states;
-                std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })
-            }
-        }
-    }
-
-    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
-    fn see(
-        &mut self,
-        number: usize,
-        nodes: &Nodes,
-        end: &End,
-        elapsed: f64,
-        weights: &[Block],
-        lead: f64,
-        work: &mut Work,
-    ) {
-        let model = self.model.as_ref();
-        let Tables { now: to_now, start: to_start } = &mut self.tables;
-        // nodes that count from now are as far from now as from where the start's prediction has come to by then
-        let passed = if nodes.from_now { 0.0 } else { elapsed };
-        match &self.source {
-            Source::Separable { first, now } => {
-                let Some(axes) = &end.axes else { return };
-                to_now.fill_axes(model, now, number, axes, nodes, passed);
-                let mut foreseen = *first;
-                if nodes.from_now {
-                    foreseen.foresee(first, model, elapsed);
-                } else {
-                    to_start.fill_axes(model, first, number, axes, nodes, 0.0);
-                }
-                let start_tables = if nodes.from_now { &to_now.axes } else { &to_start.axes };
-                let sight = Sight {
-                    now,
-                    start: &foreseen,
-                    tables: &to_now.axes,
-                    start_tables,
-                    weights,
-                    weight: self.weight,
-                    lead,
-                };
-                work.see(&sight, axes);
-            }
-            Source::Coupled(coupled) => {
-                to_now.fill_whole(model, number, nodes, passed);
-                let start = if nodes.from_now {
-                    coupled.foresee(model, elapsed)
-                } else {
-                    to_start.fill_whole(model, number, nodes, 0.0);
-                    coupled.first.clone()
-                };
-                let start_steps = if nodes.from_now { &to_now.whole } else { &to_start.whole };
-                let now = coupled.now();
-                let steps = to_now.whole.iter().zip(start_steps).zip(weights.as_flattened());
-                for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
-                    let factor = self.weight * weight;
-                    let d = model.dimensions();
-                    let term = coupled::ellipsoid((&now, step), (&start, start_step), end, factor, lead, d);
-                    work.ellipsoids.extend(term);
-                }
-            }
-        }
-    }
-}
-
-impl StepsTo {
-    fn is(&mut self, number: usize, passed: f64) -> bool {
-        let of = Some((number, passed.to_bits()));
-        std::mem::replace(&mut self.of, of) == of
-    }
-
-    fn fill_axes(
-        &mut self,
-        model: &dyn MotionModel,
-        axes: &Axes,
-        number: usize,
-        ends: &[AxisEnd; MOST],
-        nodes: &Nodes,
-        passed: f64,
-    ) {
-        let length = ends.iter().map(|end| end.length).max().unwrap_or(1);
-        if self.is(number, passed) && self.axes[0].length() >= length {
-            return;
-        }
-        for axis in (0..axes.dimensions).filter(|&axis| axis == 0 || !axes.alike[axis]) {
-            let length = length.min(axes.filters[axis].states());
-            self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
-        }
-    }
-
-    fn fill_whole(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
-        if self.is(number, passed) {
-            return;
-        }
-        self.whole.clear();
-        self.whole.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
-    }
-}
-
-/// The filter of the whole state from those of separate axes.
-fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
-    let (start, filter) = (whole(first), whole(now));
-    let s = filter.states;
-    let mut covariance = DMatrix::zeros(s, s);
-    let d = first.dimensions;
-    for (axis, of) in first.filters.iter().enumerate().take(d) {
-        for i in 0..of.states() {
-            for j in 0..of.states() {
-                covariance[(i * d + axis, j * d + axis)] = of.covariance[i][j];
-            }
-        }
-    }
-    let first = Gaussian { mean: start.means.column(0).rows(s, s).into_owned(), covariance };
-    Coupled { first, filter }
-}
-
-fn whole(axes: &Axes) -> Filter {
-    let d = axes.dimensions;
-    let s = axes.filters.iter().take(d).map(AxisFilter::states).sum();
-    let zero = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
-    let mut filter = Filter::new(&zero, 1);
-    filter.log_evidence = vec![axes.log_evidence];
-    for (axis, of) in axes.filters.iter().enumerate().take(d) {
-        for (from, to) in places(of.states(), axis, d, s) {
-            filter.means[(to, 0)] = of.mean[from];
-        }
-        let n = of.states();
-        for (i, row) in of.root.iter().enumerate().take(2 * n) {
-            for (j, entry) in row.iter().enumerate().take(2 * n) {
-                filter.root[(row_of(i, n, axis, d, s), row_of(j, n, axis, d, s))] = *entry;
-            }
-        }
-    }
-    filter
-}
-
-/// Where the components of an axis stand, in its own filter and in that of the whole state, whose first half is the first state.
-fn places(states: usize, axis: usize, d: usize, s: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..states).flat_map(move |i| [(i, s + i * d + axis), (MOST + i, i * d + axis)])
-}
-
-/// Where a row of an axis's root stands in that of the whole state; both have the first state first.
-fn row_of(i: usize, states: usize, axis: usize, d: usize, s: usize) -> usize {
-    if i < states { i * d + axis } else { s + (i - states) * d + axis }
-}
-
-/// The filters of separate axes from those of the whole state; none where the model or the state mixes axes.
-fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
-    let mut now = Axes::new(model)?;
-    let (d, s) = (now.dimensions, filter.states);
-    if !filter.root.iter().all(|x| x.is_finite()) {
-        return None;
-    }
-    let mixes = |i: usize, j: usize| i % s % d != j % s % d && filter.root[(i, j)] != 0.0;
-    if (0..2 * s).any(|i| (0..2 * s).any(|j| mixes(i, j))) {
-        return None;
-    }
-    let mut start = now;
-    let beginning = Filter::new(first, 1);
-    for axis in 0..d {
-        let states = now.filters[axis].states();
-        for (to, from) in places(states, axis, d, s) {
-            now.filters[axis].mean[to] = filter.means[(from, 0)];
-            start.filters[axis].mean[to] = first.mean[from % s];
-        }
-        for (axes, whole) in [(&mut now, filter), (&mut start, &beginning)] {
-            for i in 0..2 * states {
-                for j in 0..2 * states {
-                    let entry = whole.root[(row_of(i, states, axis, d, s), row_of(j, states, axis, d, s))];
-                    axes.filters[axis].root[i][j] = entry;
-                }
-            }
-            axes.filters[axis].square();
-        }
-        for i in 0..states {
-            for j in 0..states {
-                start.filters[axis].covariance[i][j] = first.covariance[(i * d + axis, j * d + axis)];
-            }
-        }
-    }
-    now.log_evidence = *filter.log_evidence.first()?;
-    Some((start, now))
 }

@@ -5,9 +5,9 @@
 //! nodes are worked on at a time. Axes that are alike (one noise, one history of observation noise) share all that does not
 //! depend on a mean.
 
-use crate::math::gaussian::VANISHING;
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::HALF_LOG2_E;
+use crate::math::small_root::{condition, triangularise};
 use crate::model::motion::{AxisTransition, MotionModel};
 
 /// The most components of one axis: position, velocity, acceleration.
@@ -72,37 +72,21 @@ impl AxisFilter {
                 own[i][s + q] = noise[i][q];
             }
         }
-        triangularise(&mut own, s);
+        triangularise(&mut own, s, 2 * s);
         for i in 0..s {
             self.root[s + i][s..2 * s].copy_from_slice(&own[i][..s]);
         }
         self.square();
     }
 
-    /// A rotation for each column, from the position's own to the first, turns `[R^1/2, H L]` into `[S^1/2, 0]`; it turns the
-    /// rows of `[0, L]` into those of `[K S^1/2, L+]` and leaves `L` triangular.
     fn correct_covariance(&mut self, variance: f64) -> Correction {
         let s = self.states;
-        let mut deviation = variance.sqrt();
-        let mut leaning = [0.0; PAIR];
-        for q in (0..=s).rev() {
-            let known = self.root[s][q];
-            let total = (deviation * deviation + known * known).sqrt();
-            let (cosine, sine) = (deviation / total, known / total);
-            for p in q..2 * s {
-                let (entry, lean) = (self.root[p][q], leaning[p]);
-                self.root[p][q] = cosine * entry - sine * lean;
-                leaning[p] = sine * entry + cosine * lean;
-            }
-            deviation = total;
-        }
+        let (by_row, spread) = condition(&mut self.root, 2 * s, s, variance);
         self.square();
         let mut gain = [0.0; PAIR];
-        for i in 0..s {
-            gain[i] = leaning[s + i] / deviation;
-            gain[MOST + i] = leaning[i] / deviation;
-        }
-        Correction { gain, spread: deviation * deviation }
+        gain[..s].copy_from_slice(&by_row[s..2 * s]);
+        gain[MOST..MOST + s].copy_from_slice(&by_row[..s]);
+        Correction { gain, spread }
     }
 
     /// The covariance of the state now, from the root.
@@ -141,29 +125,6 @@ fn root(p: &[[f64; MOST]; MOST], s: usize) -> [[f64; MOST]; MOST] {
         }
     }
     root
-}
-
-/// As [`crate::math::gaussian::triangularise`], for `s` rows of `2 s`.
-fn triangularise(rows: &mut [[f64; PAIR]; MOST], s: usize) {
-    for i in 0..s {
-        let norm = rows[i][i..].iter().map(|x| x * x).sum::<f64>().sqrt();
-        let pivot = rows[i][i];
-        let mut reflector = [0.0; PAIR];
-        reflector[i..].copy_from_slice(&rows[i][i..]);
-        rows[i][i..].fill(0.0);
-        if norm < VANISHING {
-            continue;
-        }
-        rows[i][i] = norm;
-        let sign = if pivot > 0.0 { -1.0 } else { 1.0 };
-        reflector[i] = pivot - sign * norm;
-        let scale = 1.0 / (norm * (norm + pivot.abs()));
-        for row in &mut rows[i + 1..s] {
-            let dot = row.iter().zip(&reflector).map(|(x, r)| x * r).sum::<f64>() * scale;
-            row.iter_mut().zip(&reflector).for_each(|(x, r)| *x -= dot * r);
-            row[i] *= sign;
-        }
-    }
 }
 
 /// The filters of all axes.

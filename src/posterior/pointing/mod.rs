@@ -5,6 +5,7 @@ pub mod state;
 use super::arrival_time::Arrival;
 use super::{Posterior, Shares};
 use crate::likelihood::pointing::Pointing;
+use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
 
 impl Posterior {
@@ -14,26 +15,25 @@ impl Posterior {
         pointing.log_likelihoods(destinations, &mut self.log_likelihoods);
         let priors = destinations.priors();
         let total: f64 = priors.iter().sum();
-        let scale = (1.0 - none) / total;
-        let log_none = if none > 0.0 { none.ln() + pointing.log_likelihood_of_none() } else { f64::NEG_INFINITY };
         let each = self.log_likelihoods.iter().zip(pointing.log_near()).zip(priors);
         self.probabilities.clear();
-        self.probabilities.extend(each.map(|((likelihood, near), prior)| likelihood + near + (scale * prior).ln()));
-        let largest = self.probabilities.iter().copied().fold(log_none, f64::max);
-        self.none = (log_none - largest).exp();
-        let mut sum = self.none;
-        for value in &mut self.probabilities {
-            *value = (*value - largest).exp();
-            sum += *value;
+        self.probabilities.extend(each.map(|((likelihood, near), prior)| likelihood + near + (prior / total).ln()));
+        let log_sum = log_sum_exp(&self.probabilities);
+        if !log_sum.is_finite() {
+            return self.believe_prior(destinations, none);
         }
-        let scale = if self.none < sum { 1.0 / (sum - self.none) } else { 0.0 };
-        let kept = pointing.parameters().none_share;
-        self.none = (1.0 - kept) * self.none / sum + kept * none;
-        let uniform = pointing.parameters().uniform;
+        let (kept, uniform) = (pointing.parameters().none_share, pointing.parameters().uniform);
+        self.none = match none {
+            0.0 => 0.0,
+            none => {
+                let log_odds = (none / (1.0 - none)).ln() + pointing.log_likelihood_of_none() - log_sum;
+                (1.0 - kept) / (1.0 + (-log_odds).exp()) + kept * none
+            }
+        };
         let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
-        let share = uniform * (1.0 - self.none) / possible as f64;
         for (value, prior) in self.probabilities.iter_mut().zip(priors) {
-            *value = (1.0 - uniform) * (1.0 - self.none) * *value * scale + if *prior > 0.0 { share } else { 0.0 };
+            let even = if *prior > 0.0 { uniform / possible as f64 } else { 0.0 };
+            *value = (1.0 - self.none) * ((1.0 - uniform) * (*value - log_sum).exp() + even);
         }
     }
 }

@@ -6,30 +6,29 @@
 use super::Shares;
 use crate::likelihood::pointing::endpoint::{Pair, inverse, spread, times};
 use crate::likelihood::pointing::{Pointing, Symmetric, Vector, minus, vector};
-use crate::math::gaussian::{Gaussian, symmetrise};
+use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
+use crate::posterior::state::Moments;
 use nalgebra::{DMatrix, DVector};
 
 impl Pointing {
     /// The state `later` seconds after the latest observation, given that the movement ends at one of the destinations.
     #[must_use]
-    pub fn state(&self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Gaussian {
+    pub fn state(&self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
         self.mix(destinations, shares, |pair| self.ahead(pair, later.min(pair.time)))
     }
 
     /// The state at the first observation, given all of them and that the movement ends at one of the destinations.
     #[must_use]
-    pub fn initial_state(&self, destinations: &Destinations, shares: Shares<'_>) -> Gaussian {
+    pub fn initial_state(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
         self.mix(destinations, shares, |pair| self.at_start(pair))
     }
 
-    fn mix(&self, destinations: &Destinations, shares: Shares<'_>, view: impl Fn(&Pair) -> View) -> Gaussian {
+    fn mix(&self, destinations: &Destinations, shares: Shares<'_>, view: impl Fn(&Pair) -> View) -> Option<Gaussian> {
         let d = self.course().dimensions();
         let nodes = self.nodes();
         let views: Vec<View> = nodes.pairs.iter().map(view).collect();
-        let mut total = 0.0;
-        let mut mean = DVector::zeros(2 * d);
-        let mut second = DMatrix::zeros(2 * d, 2 * d);
+        let mut moments = Moments::default();
         for &(i, share) in shares {
             let covariance = &destinations.kind(i).covariance;
             let weights = nodes.weights(destinations.center(i), covariance);
@@ -42,20 +41,14 @@ impl Pointing {
                 let (precision, _) = inverse(&nodes.covariance(pair, covariance), d);
                 let error = minus(&offset, &self.course().velocity().map(|v| v * pair.time));
                 let shift = &view.mean + view.pull(&times(&precision, &error));
-                total += weight;
-                second += weight * (&view.covariance - view.gained(&precision, d));
-                second.ger(weight, &shift, &shift, 1.0);
-                mean.axpy(weight, &shift, 1.0);
+                moments.add(weight, shift, &(&view.covariance - view.gained(&precision, d)));
             }
         }
-        mean /= total;
-        let mut covariance = second / total;
-        covariance.ger(-1.0, &mean, &mean, 1.0);
-        symmetrise(&mut covariance);
+        let mut mixture = moments.mixture?;
         for (j, x) in self.course().position().iter().enumerate().take(d) {
-            mean[j] += x;
+            mixture.mean[j] += x;
         }
-        Gaussian { mean, covariance }
+        Some(mixture)
     }
 
     /// The state `later` seconds on, which is not beyond the pair's time to go.

@@ -1,0 +1,167 @@
+//! The movement under one noise candidate, and what it sees of the endpoints of a class.
+
+use super::classes::{End, Nodes};
+use super::coupled::{self, Coupled};
+use super::separable::{Axes, AxisEnd, MOST, NodeTable};
+use super::terms::{Sight, Work};
+use super::whole::coupled_of;
+use crate::math::gaussian::Gaussian;
+use crate::math::kalman::Filter;
+use crate::math::lanes::Block;
+use crate::math::mixture::AXES;
+use crate::model::motion::{MotionModel, Transition};
+use std::sync::Arc;
+
+/// The movement under one noise candidate.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    pub model: Arc<dyn MotionModel>,
+    /// `w_c`.
+    pub weight: f64,
+    pub source: Source,
+    pub tables: Tables,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Source {
+    Separable { first: Axes, now: Axes },
+    Coupled(Box<Coupled>),
+}
+
+/// Steps to the nodes, kept as long as they stay the same.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tables {
+    pub now: StepsTo,
+    pub start: StepsTo,
+}
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct StepsTo {
+    /// Which nodes, and how much of their time had passed.
+    pub of: Option<(usize, u64)>,
+    pub axes: [NodeTable; MOST],
+    pub whole: Vec<Transition>,
+}
+
+impl Candidate {
+    pub fn log_evidence(&self) -> f64 {
+        match &self.source {
+            Source::Separable { now, .. } => now.log_evidence,
+            Source::Coupled(coupled) => coupled.filter.evidence(0),
+        }
+    }
+
+    /// `p(x_1 | y_1)` and the filter, of the whole state.
+    pub fn whole(&self) -> (Gaussian, Filter) {
+        match &self.source {
+            Source::Separable { first, now } => {
+                let Coupled { first, filter } = coupled_of(first, now);
+                (first, filter)
+            }
+            Source::Coupled(coupled) => (coupled.first.clone(), coupled.filter.clone()),
+        }
+    }
+
+    /// The position now.
+    pub fn position(&self) -> [f64; AXES] {
+        match &self.source {
+            Source::Separable { now, .. } => now.filters.map(|filter| filter.mean[0]),
+            Source::Coupled(coupled) => {
+                let s = coupled.filter.states;
+                std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })
+            }
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
+    pub fn see(
+        &mut self,
+        number: usize,
+        nodes: &Nodes,
+        end: &End,
+        elapsed: f64,
+        weights: &[Block],
+        lead: f64,
+        work: &mut Work,
+    ) {
+        let model = self.model.as_ref();
+        let Tables { now: to_now, start: to_start } = &mut self.tables;
+        // nodes that count from now are as far from now as from where the start's prediction has come to by then
+        let passed = if nodes.from_now { 0.0 } else { elapsed };
+        match &self.source {
+            Source::Separable { first, now } => {
+                let Some(axes) = &end.axes else { return };
+                to_now.fill_axes(model, now, number, axes, nodes, passed);
+                let mut foreseen = *first;
+                if nodes.from_now {
+                    foreseen.foresee(first, model, elapsed);
+                } else {
+                    to_start.fill_axes(model, first, number, axes, nodes, 0.0);
+                }
+                let start_tables = if nodes.from_now { &to_now.axes } else { &to_start.axes };
+                let sight = Sight {
+                    now,
+                    start: &foreseen,
+                    tables: &to_now.axes,
+                    start_tables,
+                    weights,
+                    weight: self.weight,
+                    lead,
+                };
+                work.see(&sight, axes);
+            }
+            Source::Coupled(coupled) => {
+                to_now.fill_whole(model, number, nodes, passed);
+                let start = if nodes.from_now {
+                    coupled.foresee(model, elapsed)
+                } else {
+                    to_start.fill_whole(model, number, nodes, 0.0);
+                    coupled.first.clone()
+                };
+                let start_steps = if nodes.from_now { &to_now.whole } else { &to_start.whole };
+                let now = coupled.now();
+                let steps = to_now.whole.iter().zip(start_steps).zip(weights.as_flattened());
+                for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
+                    let factor = self.weight * weight;
+                    let d = model.dimensions();
+                    let term = coupled::ellipsoid((&now, step), (&start, start_step), end, factor, lead, d);
+                    work.ellipsoids.extend(term);
+                }
+            }
+        }
+    }
+}
+
+impl StepsTo {
+    fn is(&mut self, number: usize, passed: f64) -> bool {
+        let of = Some((number, passed.to_bits()));
+        std::mem::replace(&mut self.of, of) == of
+    }
+
+    fn fill_axes(
+        &mut self,
+        model: &dyn MotionModel,
+        axes: &Axes,
+        number: usize,
+        ends: &[AxisEnd; MOST],
+        nodes: &Nodes,
+        passed: f64,
+    ) {
+        let length = ends.iter().map(|end| end.length).max().unwrap_or(1);
+        if self.is(number, passed) && self.axes[0].length() >= length {
+            return;
+        }
+        for axis in (0..axes.dimensions).filter(|&axis| axis == 0 || !axes.alike[axis]) {
+            let length = length.min(axes.filters[axis].states());
+            self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
+        }
+    }
+
+    fn fill_whole(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
+        if self.is(number, passed) {
+            return;
+        }
+        self.whole.clear();
+        self.whole.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
+    }
+}

@@ -1,0 +1,105 @@
+//! Destinations that come, change and go.
+
+use super::{Destination, Destinations, Kind, MOST_DESTINATIONS, duplicate};
+use crate::error::{Code, Error, Result};
+
+impl Destinations {
+    /// Adds a destination at the end.
+    ///
+    /// # Errors
+    /// `duplicate-id`, `too-large`.
+    pub fn add(&mut self, destination: &Destination) -> Result<()> {
+        self.learnt = None;
+        let place = match self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(destination.id.as_str())) {
+            Ok(place) => return Err(duplicate("id".to_owned(), &destination.id, self.by_id[place] as usize)),
+            Err(place) => place,
+        };
+        if self.len() >= MOST_DESTINATIONS {
+            let message = format!("must have at most {MOST_DESTINATIONS} destinations");
+            return Err(Error::new(Code::TooLarge, "destinations", message));
+        }
+        self.by_id.insert(place, self.ids.len() as u32);
+        let kind = self.place_kind(&destination.kind);
+        self.push(destination, kind);
+        Ok(())
+    }
+
+    /// Puts another destination in the place of `i`, under the same id.
+    ///
+    /// # Errors
+    /// `out-of-range` where no prior would be left above zero; nothing has changed then.
+    pub fn update(&mut self, i: usize, destination: &Destination) -> Result<()> {
+        self.learnt = None;
+        let prior = std::mem::replace(&mut self.priors[i], destination.prior);
+        if let Err(error) = self.check_priors("prior") {
+            self.priors[i] = prior;
+            return Err(error);
+        }
+        let row = &mut self.means[i * self.states..(i + 1) * self.states];
+        row.fill(0.0);
+        row[..destination.mean.len()].copy_from_slice(&destination.mean);
+        if *self.kind(i) != destination.kind {
+            self.kind_of[i] = u32::MAX;
+            self.kind_of[i] = self.place_kind(&destination.kind);
+        }
+        Ok(())
+    }
+
+    /// Takes destination `i` out; those after it move up.
+    ///
+    /// # Errors
+    /// `no-destinations` where it is the last one, `out-of-range` where no prior would be left above zero.
+    pub fn remove(&mut self, i: usize) -> Result<()> {
+        self.learnt = None;
+        if self.len() == 1 {
+            return Err(Error::new(Code::NoDestinations, "id", "the last destination cannot be removed"));
+        }
+        let prior = std::mem::replace(&mut self.priors[i], 0.0);
+        if let Err(error) = self.check_priors("destinations") {
+            self.priors[i] = prior;
+            return Err(error);
+        }
+        self.ids.remove(i);
+        self.priors.remove(i);
+        self.kind_of.remove(i);
+        self.means.drain(i * self.states..(i + 1) * self.states);
+        self.by_id.retain(|&j| j as usize != i);
+        for j in &mut self.by_id {
+            *j -= u32::from(*j as usize > i);
+        }
+        Ok(())
+    }
+
+    /// Numbers the kinds in the order of their first destinations, as reading a list does, and forgets the others: what is
+    /// computed from a list must not depend on how it came about.
+    pub fn renumber(&mut self) {
+        let mut numbers = vec![u32::MAX; self.kinds.len()];
+        let mut kinds = Vec::with_capacity(self.kinds.len());
+        for kind in &mut self.kind_of {
+            let number = &mut numbers[*kind as usize];
+            if *number == u32::MAX {
+                *number = kinds.len() as u32;
+                kinds.push(self.kinds[*kind as usize].clone());
+            }
+            *kind = *number;
+        }
+        self.kinds = kinds;
+    }
+
+    /// The number of an equal kind, or of a free place for a new one.
+    fn place_kind(&mut self, kind: &Kind) -> u32 {
+        if let Some(found) = self.kinds.iter().position(|known| known == kind) {
+            return found as u32;
+        }
+        let mut used = vec![false; self.kinds.len()];
+        for &k in self.kind_of.iter().filter(|&&k| k != u32::MAX) {
+            used[k as usize] = true;
+        }
+        if let Some(free) = used.iter().position(|used| !used) {
+            self.kinds[free] = kind.clone();
+            return free as u32;
+        }
+        self.kinds.push(kind.clone());
+        self.kinds.len() as u32 - 1
+    }
+}
