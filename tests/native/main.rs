@@ -1,9 +1,12 @@
 //! Tests of the whole library, natively: golden cases, identities, errors, the life of a predictor.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::type_complexity)]
 
+mod batch;
+mod calibration;
 mod documentation;
 mod errata;
 mod errors;
+mod fuzz;
 mod golden;
 mod habits;
 mod identities;
@@ -11,6 +14,7 @@ mod imports;
 mod life;
 mod numerics;
 mod pointing;
+mod problem;
 mod sequences;
 mod support;
 mod telescoped;

@@ -3,6 +3,7 @@
 use crate::support::predictor;
 use nalgebra::DMatrix;
 use serde_json::{Value as Json, json};
+use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Gaussian, Predictor};
 
 /// A reproducible number in [-1, 1).
@@ -55,8 +56,11 @@ fn check_all(predictor: &mut Predictor) -> Result<(), String> {
     check(&predictor.initial_state().unwrap()).map_err(|error| format!("start {error}"))
 }
 
+/// The step after each sample.
+type Rhythm = fn(usize) -> f64;
+
 /// How the samples come: evenly, each twice at one time, in steps of 1e-4, with long pauses.
-const RHYTHMS: [(&str, fn(usize) -> f64); 4] = [
+const RHYTHMS: [(&str, Rhythm); 4] = [
     ("even", |_| 0.01),
     ("doubled", |k| if k % 2 == 0 { 0.01 } else { 0.0 }),
     ("short", |_| 1e-4),
@@ -185,6 +189,30 @@ fn an_outlier_is_forgotten() {
         }
         let last = (120..160).map(|k| at(k, 300.0 + 2.0 * f64::from(k).min(100.0))).last().unwrap();
         assert!(last.is_finite(), "{method}");
+    }
+}
+
+/// The same for the pointing model: an outlier of 10^5 px and back, and samples far from everything.
+#[test]
+fn the_pointing_model_survives_an_outlier() {
+    let target = |id: &str, x: f64| PointerTarget { id: id.to_owned(), x, y: 100.0, width: 80.0, height: 40.0 };
+    let targets = [target("a", 100.0), target("b", 500.0), target("c", 900.0)];
+    let options = PointerOptions { none: 0.05, ..PointerOptions::default() };
+    let mut predictor = Predictor::new(&pointer_scenario(&targets, options).unwrap()).unwrap();
+    let mut see = |k: i32, x: f64| {
+        predictor.observe(0.016 * f64::from(k), &[x, 100.0]).unwrap();
+        check_all(&mut predictor).unwrap_or_else(|error| panic!("at {k}: {error}"));
+        predictor.best().unwrap().id
+    };
+    let glide = |k: i32| 150.0 + 4.0 * f64::from(k);
+    for k in 0..20 {
+        see(k, glide(k));
+    }
+    see(20, 1e5);
+    let last = (21..80).map(|k| see(k, glide(k))).last();
+    assert_eq!(last.as_deref(), Some("b"));
+    for k in 80..380 {
+        see(k, 1e5 * f64::from(k).sin());
     }
 }
 
