@@ -81,9 +81,8 @@ fn covariances_stay_positive_definite_over_a_million_observations() {
                     time += step(k);
                     predictor.observe(time, &[20.0 * (time * 0.1).sin() + noise.next()]).unwrap();
                     observations += 1;
-                    if (k < 100 || k % 1000 == 0)
-                        && let Err(error) = check_all(&mut predictor)
-                    {
+                    let due = k < 100 || k % 1000 == 0;
+                    if due && let Err(error) = check_all(&mut predictor) {
                         wrong.push(format!("{kind} {ratio:e} {rhythm} at {k}: {error}"));
                         break;
                     }
@@ -197,7 +196,7 @@ fn an_outlier_is_forgotten() {
 fn the_pointing_model_survives_an_outlier() {
     let target = |id: &str, x: f64| PointerTarget { id: id.to_owned(), x, y: 100.0, width: 80.0, height: 40.0 };
     let targets = [target("a", 100.0), target("b", 500.0), target("c", 900.0)];
-    let options = PointerOptions { none: 0.05, ..PointerOptions::default() };
+    let options = PointerOptions { none: 0.05 };
     let mut predictor = Predictor::new(&pointer_scenario(&targets, options).unwrap()).unwrap();
     let mut see = |k: i32, x: f64| {
         predictor.observe(0.016 * f64::from(k), &[x, 100.0]).unwrap();

@@ -146,7 +146,7 @@ impl Choice {
     pub fn destination(&self, i: usize, draw: &mut Draw) -> Json {
         let (d, s) = (self.dimensions, self.states());
         let length = [d, s, d + (s - d) / 2][(self.endpoints + i) % 3];
-        let mut destination = if i % 2 == 0 || length != d {
+        let mut destination = if i.is_multiple_of(2) || length != d {
             json!({ "mean": draw.list(length, -6.0, 6.0), "covariance": draw.covariance(length, 1.0) })
         } else {
             json!({ "center": draw.list(d, -6.0, 6.0), "size": draw.list(d, 0.5, 2.0) })
