@@ -8,6 +8,7 @@ use crate::math::gaussian::Gaussian;
 use crate::model::arrival::MAX_TIME;
 use crate::model::destination::Destinations;
 use crate::model::habits::Habits;
+use crate::model::observation::variances;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
@@ -121,12 +122,10 @@ impl Predictor {
     /// `time-not-increasing`, `wrong-length`, `not-finite`; `out-of-range` for a position beyond 1e50 or a time more than
     /// 1e12 s after the first; nothing has changed then.
     pub fn observe(&mut self, time: f64, position: &[f64]) -> Result<()> {
-        if let Some(all) = position.first_chunk::<3>().filter(|_| position.len() == 3) {
-            self.observe_with(time, &all.map(Some), None)
-        } else if let Some(both) = position.first_chunk::<2>().filter(|_| position.len() == 2) {
-            self.observe_with(time, &both.map(Some), None)
-        } else {
-            self.observe_with(time, &position.iter().map(|&x| Some(x)).collect::<Vec<_>>(), None)
+        match *position {
+            [x, y] => self.observe_with(time, &[Some(x), Some(y)], None),
+            [x, y, z] => self.observe_with(time, &[Some(x), Some(y), Some(z)], None),
+            _ => self.observe_with(time, &position.iter().map(|&x| Some(x)).collect::<Vec<_>>(), None),
         }
     }
 
@@ -140,7 +139,8 @@ impl Predictor {
         let model = &self.scenario.observation;
         let noise = noise.map(|noise| model.read_noise(&Node::root(noise, "noise"))).transpose()?;
         model.check(position)?;
-        let observed = Observed { time, position, noise: noise.as_ref().unwrap_or_else(|| model.noise()) };
+        let variances = noise.as_ref().map_or_else(|| model.variances(), variances);
+        let observed = Observed { time, position, noise: noise.as_ref().unwrap_or_else(|| model.noise()), variances };
         let Some(track) = &mut self.track else {
             self.track = Some(Track::begin(&self.scenario, &self.destinations, &observed)?);
             self.stale = true;

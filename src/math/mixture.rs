@@ -38,9 +38,6 @@ pub trait Term<const D: usize>: Copy {
     /// The places of block `i`; none beyond the end.
     fn place(places: &Places<'_>, i: usize) -> Option<Self::Place>;
 
-    /// The exponent, in base 2.
-    fn exponent(&self, place: &Self::Place) -> Lanes;
-
     /// The exponent, and the factor before the power.
     fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes);
 }
@@ -130,16 +127,12 @@ macro_rules! terms {
             }
 
             #[inline(always)]
-            fn exponent(&self, (offsets, square): &Self::Place) -> Lanes {
-                Lanes::splat(self.curvature) * *square
+            fn exponent_and_factor(&self, (offsets, square): &Self::Place) -> (Lanes, Lanes) {
+                let exponent = Lanes::splat(self.curvature) * *square
                     + Lanes::splat(self.slope[$first]) * offsets[$first]
                     $(+ Lanes::splat(self.slope[$rest]) * offsets[$rest])*
-                    + Lanes::splat(self.constant)
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
+                    + Lanes::splat(self.constant);
+                (exponent, Lanes::splat(self.factor))
             }
         }
 
@@ -153,22 +146,18 @@ macro_rules! terms {
             }
 
             #[inline(always)]
-            fn exponent(&self, place: &Self::Place) -> Lanes {
+            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
                 let offsets = [
                     place[$first] - Lanes::splat(self.center[$first]),
                     $(place[$rest] - Lanes::splat(self.center[$rest])),*
                 ];
-                Lanes::splat(self.constant)
+                let exponent = Lanes::splat(self.constant)
                     $(+ offsets[$row] * (
                         Lanes::splat(self.curvature[$row][$row]) * offsets[$row]
                         $(+ Lanes::splat(self.curvature[$row][$column]) * offsets[$column])*
                         + Lanes::splat(self.slope[$row])
-                    ))*
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
+                    ))*;
+                (exponent, Lanes::splat(self.factor))
             }
         }
 
@@ -182,11 +171,6 @@ macro_rules! terms {
                     [at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*],
                     [at(places.variances[$first], i)?, $(at(places.variances[$rest], i)?),*],
                 ))
-            }
-
-            #[inline(always)]
-            fn exponent(&self, place: &Self::Place) -> Lanes {
-                <Self as Term<$d>>::exponent_and_factor(self, place).0
             }
 
             // over the common denominator, so that one division and one root serve all axes
@@ -257,26 +241,30 @@ pub fn weigh<const D: usize, T: Term<D>>(
     total.sum()
 }
 
-/// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
+/// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents. Slower, and smaller.
 #[inline(never)]
 pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, logs: &mut [Block]) {
-    let Some(first) = terms.first() else { return logs.fill([f64::NEG_INFINITY; WIDTH]) };
-    let none = Shift::by(0.0);
+    logs.fill([f64::NEG_INFINITY; WIDTH]);
     for (i, log) in logs.iter_mut().enumerate() {
         let Some(place) = T::place(places, i) else { break };
-        let mut top = first.exponent(&place);
-        for term in terms {
-            top = term.exponent(&place).at_least(top);
-        }
-        let mut sum = Lanes::splat(0.0);
+        let mut sum = [0.0; WIDTH];
         for term in terms {
             let (exponent, factor) = term.exponent_and_factor(&place);
-            sum = sum + factor * (exponent - top).exp2(&none);
+            let [mut exponents, mut factors] = [[0.0; WIDTH]; 2];
+            exponent.store(&mut exponents);
+            factor.store(&mut factors);
+            // `log` is the largest exponent so far, `sum` the sum in units of two to that
+            for lane in 0..WIDTH {
+                let beyond = exponents[lane] - log[lane];
+                if beyond > 0.0 {
+                    sum[lane] = sum[lane] * (-beyond).exp2() + factors[lane];
+                    log[lane] = exponents[lane];
+                } else {
+                    sum[lane] += factors[lane] * beyond.exp2();
+                }
+            }
         }
-        let mut tops = [0.0; WIDTH];
-        top.store(&mut tops);
-        sum.store(log);
-        log.iter_mut().zip(tops).for_each(|(log, top)| *log = top + log.log2());
+        log.iter_mut().zip(sum).for_each(|(log, sum)| *log += sum.log2());
     }
 }
 

@@ -3,7 +3,7 @@
 use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
-use crate::value::{Node, Value, quote};
+use crate::value::{Node, Value, number, quote};
 use nalgebra::{DMatrix, DVector};
 
 /// More destinations than this are an error, so that no input can exhaust the memory.
@@ -231,7 +231,11 @@ impl Destinations {
         if total > 0.0 && total.is_finite() {
             return Ok(());
         }
-        Err(Error::new(Code::OutOfRange, path, format!("the priors must have a finite sum above 0, it is {total}")))
+        Err(Error::new(
+            Code::OutOfRange,
+            path,
+            format!("the priors must have a finite sum above 0, it is {}", number(total)),
+        ))
     }
 
     /// How many there are; at least one.

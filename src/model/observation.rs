@@ -20,6 +20,7 @@ pub struct ObservationModel {
     /// `G`, `m` by `s`; none where positions are observed as they are, `G = [I 0]`.
     matrix: Option<DMatrix<f64>>,
     noise: DMatrix<f64>,
+    variances: Option<[f64; 3]>,
     states: usize,
     value: Value,
 }
@@ -43,7 +44,7 @@ impl ObservationModel {
         };
         let axes = matrix.as_ref().map_or(dimensions, DMatrix::nrows);
         let noise = read_noise(&fields.required("noise")?, axes)?;
-        Ok(Self { matrix, noise, states, value: node.value().clone() })
+        Ok(Self { matrix, variances: variances(&noise), noise, states, value: node.value().clone() })
     }
 
     /// The scenario's own form.
@@ -70,6 +71,12 @@ impl ObservationModel {
         &self.noise
     }
 
+    /// The variances in each axis, where there are at most three and the noise of each is its own.
+    #[must_use]
+    pub const fn variances(&self) -> Option<[f64; 3]> {
+        self.variances
+    }
+
     /// Whether this can be an observation; none marks a missing axis.
     ///
     /// # Errors
@@ -82,7 +89,7 @@ impl ObservationModel {
         }
         for (i, y) in position.iter().enumerate() {
             if let Some(y) = y
-                && !(y.abs() <= LARGEST)
+                && (y.is_nan() || y.abs() > LARGEST)
             {
                 Node::root(&Value::Number(*y), &format!("position[{i}]")).number()?;
             }
@@ -116,6 +123,14 @@ impl ObservationModel {
     pub fn read_noise(&self, node: &Node<'_>) -> Result<DMatrix<f64>> {
         read_noise(node, self.axes())
     }
+}
+
+/// The diagonal of a matrix of at most three rows with nothing beside it; none of any other.
+#[must_use]
+pub fn variances(matrix: &DMatrix<f64>) -> Option<[f64; 3]> {
+    let n = matrix.nrows();
+    let own = n <= 3 && (0..n).all(|i| (0..i).all(|j| matrix[(i, j)] == 0.0));
+    own.then(|| std::array::from_fn(|k| if k < n { matrix[(k, k)] } else { 0.0 }))
 }
 
 /// The square of the smallest deviation that [`Node::positive`] takes.

@@ -32,7 +32,7 @@ pub(crate) struct Track {
 #[derive(Clone, Debug)]
 enum Followed {
     Papers {
-        movement: Movement,
+        movement: Box<Movement>,
         /// The movement before every node had passed: what the probabilities stay at.
         frozen: Option<Box<Movement>>,
     },
@@ -53,15 +53,8 @@ pub(super) struct Observed<'a> {
     pub position: &'a [Option<f64>],
     /// The covariance of all axes, those that are missing too.
     pub noise: &'a DMatrix<f64>,
-}
-
-impl Observed<'_> {
     /// The variances in each axis, where the noise of each is its own.
-    fn variances(&self) -> Option<[f64; 3]> {
-        let n = self.noise.nrows();
-        let own = n <= 3 && (0..n).all(|i| (0..i).all(|j| self.noise[(i, j)] == 0.0));
-        own.then(|| std::array::from_fn(|k| if k < n { self.noise[(k, k)] } else { 0.0 }))
-    }
+    pub variances: Option<[f64; 3]>,
 }
 
 /// Whether the likelihoods are those of the telescoped form.
@@ -85,7 +78,7 @@ impl Track {
                     Followed::Telescoped { now: Box::new(now), before: None, dense: None }
                 } else {
                     let movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
-                    Followed::Papers { movement, frozen: None }
+                    Followed::Papers { movement: Box::new(movement), frozen: None }
                 }
             }
             Engine::Pointing(parameters) => {
@@ -122,7 +115,7 @@ impl Track {
         match &mut self.followed {
             Followed::Papers { movement, frozen } => {
                 let expires = frozen.is_none() && !movement.plan.is_alive(elapsed);
-                let last = expires.then(|| Box::new(movement.clone()));
+                let last = expires.then(|| movement.clone());
                 movement.advance(destinations, elapsed, &measurement()?)?;
                 if expires {
                     *frozen = last;
@@ -131,7 +124,7 @@ impl Track {
             Followed::Telescoped { now, before, dense } => {
                 let expires = before.is_none() && !now.is_alive(elapsed);
                 let last = expires.then(|| now.clone());
-                let separate = observed.variances().filter(|_| now.is_separable());
+                let separate = observed.variances.filter(|_| now.is_separable());
                 if let Some(variances) = separate {
                     now.advance_separately(elapsed, observed.position, &variances);
                 } else {
@@ -289,7 +282,7 @@ impl Track {
                         before.replan(plan, origin);
                         Some(before)
                     }
-                    None => Some(Box::new(movement.clone())),
+                    None => Some(movement.clone()),
                 };
             }
             Followed::Telescoped { now, before, dense } => {
@@ -356,7 +349,7 @@ impl Track {
                     let before = frozen.as_deref().map(resume);
                     Followed::Telescoped { now: resume(&movement), before, dense: None }
                 } else {
-                    Followed::Papers { movement, frozen }
+                    Followed::Papers { movement: Box::new(movement), frozen }
                 }
             }
             Engine::Pointing(parameters) => {

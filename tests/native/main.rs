@@ -4,8 +4,8 @@
 mod documentation;
 mod errors;
 mod golden;
-mod identities;
 mod habits;
+mod identities;
 mod life;
 mod numerics;
 mod pointing;

@@ -239,24 +239,16 @@ impl Classes {
 
     /// The places of a class.
     pub fn places(&self, class: &Class, origin: [f64; AXES]) -> Places<'_> {
-        let of = |list: &'_ [Vec<Block>; AXES]| -> [Range<usize>; AXES] {
-            std::array::from_fn(|axis| if list[axis].is_empty() { 0..0 } else { class.blocks.clone() })
-        };
-        let (coordinates, variances) = (of(&self.coordinates), of(&self.variances));
-        Places {
-            coordinates: std::array::from_fn(|axis| &self.coordinates[axis][coordinates[axis].clone()]),
-            variances: std::array::from_fn(|axis| &self.variances[axis][variances[axis].clone()]),
-            origin,
-        }
+        let (coordinates, variances) = (cut(&self.coordinates, class), cut(&self.variances, class));
+        Places { coordinates, variances, origin }
     }
 
     /// Takes what stands in the order of the arrays to the order of the destinations.
     pub fn scatter(&self, from: &[Block], into: &mut Vec<f64>) {
-        into.clear();
+        into.resize(self.count, 0.0);
         match &self.order {
-            None => into.extend(&from.as_flattened()[..self.count]),
+            None => into.copy_from_slice(&from.as_flattened()[..self.count]),
             Some(order) => {
-                into.resize(self.count, 0.0);
                 for (x, &i) in from.as_flattened().iter().zip(order) {
                     if let Some(place) = into.get_mut(i as usize) {
                         *place = *x;
@@ -265,4 +257,10 @@ impl Classes {
             }
         }
     }
+}
+
+/// The blocks of a class; none of the axes that there are not.
+fn cut<'a>(lists: &'a [Vec<Block>; AXES], class: &Class) -> [&'a [Block]; AXES] {
+    let of = |axis: usize| lists[axis].get(class.blocks.clone()).unwrap_or(&[]);
+    [of(0), of(1), of(2)]
 }

@@ -130,7 +130,7 @@ fn inverse(mut matrix: Matrix, d: usize) -> Option<(Matrix, f64)> {
     for k in 0..d {
         let pivot = matrix[k][k];
         determinant *= pivot;
-        if !(pivot > 0.0) {
+        if pivot.is_nan() || pivot <= 0.0 {
             return None;
         }
         let over = 1.0 / pivot;

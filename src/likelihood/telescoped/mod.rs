@@ -36,7 +36,7 @@ use crate::model::motion::{Motion, MotionModel, Transition};
 use classes::{Class, Classes, End, Nodes};
 use coupled::Coupled;
 use nalgebra::{DMatrix, DVector};
-use separable::{Axes, AxisEnd, AxisFilter, MOST, NodeTable};
+use separable::{Axes, AxisEnd, MOST, NodeTable};
 use std::sync::Arc;
 use terms::{Sight, Work};
 
@@ -52,7 +52,7 @@ struct Candidate {
 
 #[derive(Clone, Debug)]
 enum Source {
-    Separable { first: Axes, now: Axes },
+    Separable(Box<Axes>),
     Coupled(Box<Coupled>),
 }
 
@@ -102,11 +102,17 @@ pub struct Telescoped {
     shift: f64,
     weights: Vec<Block>,
     node_weights: Vec<Block>,
+    node_weights_of: Option<usize>,
     work: Work,
 }
 
 /// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is nothing beside it.
 const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
+
+/// The exponent of a normal number.
+const fn exponent_of(x: f64) -> f64 {
+    ((x.to_bits() >> 52) & 0x7ff) as f64 - 1023.0
+}
 
 /// Probabilities below this are zero, so that the shift does not matter.
 const LEAST: f64 = 1.5e-241;
@@ -143,7 +149,7 @@ impl Telescoped {
             model: Arc::clone(&candidate.model),
             weight: candidate.weight,
             source: match axes.next() {
-                Some((first, now)) => Source::Separable { first, now },
+                Some(axes) => Source::Separable(Box::new(axes)),
                 None => Source::Coupled(Box::new(Coupled { first: first.clone(), filter: (*filter).clone() })),
             },
             tables: Tables::default(),
@@ -156,6 +162,7 @@ impl Telescoped {
             observations: 1,
             shift: 0.0,
             node_weights: Vec::new(),
+            node_weights_of: None,
             work: Work::default(),
         }
     }
@@ -163,8 +170,8 @@ impl Telescoped {
     /// From now on the axes are taken together. Every candidate is separable, or none is.
     pub fn couple(&mut self, destinations: &Destinations, plan: &Plan) {
         for candidate in &mut self.candidates {
-            if let Source::Separable { first, now } = &candidate.source {
-                candidate.source = Source::Coupled(Box::new(coupled_of(first, now)));
+            if let Source::Separable(axes) = &candidate.source {
+                candidate.source = Source::Coupled(Box::new(coupled_of(axes)));
             }
         }
         self.replan(destinations, plan);
@@ -191,7 +198,7 @@ impl Telescoped {
     /// Whether an observation can be taken axis by axis.
     #[must_use]
     pub fn is_separable(&self) -> bool {
-        self.candidates.iter().all(|candidate| matches!(candidate.source, Source::Separable { .. }))
+        self.candidates.iter().all(|candidate| matches!(candidate.source, Source::Separable(_)))
     }
 
     /// Takes in an observation whose noise is independent in each axis, `elapsed` seconds after the first one; none marks an
@@ -201,8 +208,8 @@ impl Telescoped {
             return false;
         }
         for candidate in &mut self.candidates {
-            if let Source::Separable { now, .. } = &mut candidate.source {
-                now.advance(candidate.model.as_ref(), elapsed - self.elapsed, position, variance);
+            if let Source::Separable(axes) = &mut candidate.source {
+                axes.advance(candidate.model.as_ref(), elapsed - self.elapsed, position, variance);
             }
         }
         self.elapsed = elapsed;
@@ -218,7 +225,7 @@ impl Telescoped {
     pub fn advance(&mut self, elapsed: f64, measurement: &Measurement) -> Result<()> {
         let step = elapsed - self.elapsed;
         let advanced = self.candidates.iter().map(|candidate| match &candidate.source {
-            Source::Separable { .. } => Ok(None),
+            Source::Separable(_) => Ok(None),
             Source::Coupled(coupled) => {
                 advance_filter(&coupled.filter, candidate.model.as_ref(), step, measurement).map(Some)
             }
@@ -265,6 +272,7 @@ impl Telescoped {
         }
         self.weights.clear();
         self.weights.resize(self.classes.priors.len(), [0.0; WIDTH]);
+        self.node_weights_of = None;
         for candidate in &mut self.candidates {
             candidate.tables = Tables::default();
         }
@@ -295,19 +303,13 @@ impl Telescoped {
         if !(total > 0.0 && total.is_finite()) {
             return None;
         }
-        // against it "none", whose ratio of densities is one, under the same shift
-        let level = self.candidates.iter().map(|candidate| candidate.weight * self.lead(candidate).exp2()).sum::<f64>();
-        let others = none / (1.0 - none) * level;
-        let (scale, none) = if others > 0.0 {
-            let log = others.log2() - self.shift - total.log2();
-            ((1.0 + log.exp2()).recip(), (1.0 + (-log).exp2()).recip())
-        } else {
-            (1.0, 0.0)
-        };
+        let (scale, none) = self.against_none(none, total);
         let (scale, least) = (scale / total, LEAST * total);
         self.classes.scatter(&self.weights, into);
-        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
-        let beyond = total.log2().round();
+        for p in into.iter_mut() {
+            *p = if *p > least { *p * scale } else { 0.0 };
+        }
+        let beyond = exponent_of(total);
         if beyond.abs() > 8.0 {
             self.shift += beyond;
         }
@@ -323,6 +325,18 @@ impl Telescoped {
         self.classes.scatter(&logs, into);
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         into.iter_mut().for_each(|log| *log = *log * std::f64::consts::LN_2 + evidence);
+    }
+
+    /// The shares of the destinations, whose weights sum to `total`, and of none of them, whose ratio of densities is one,
+    /// under the same shift.
+    fn against_none(&self, none: f64, total: f64) -> (f64, f64) {
+        if none <= 0.0 {
+            return (1.0, 0.0);
+        }
+        let each = self.candidates.iter().map(|candidate| candidate.weight * self.lead(candidate).exp2());
+        let others = none / (1.0 - none) * each.sum::<f64>();
+        let log = others.log2() - self.shift - total.log2();
+        ((1.0 + log.exp2()).recip(), (1.0 + (-log).exp2()).recip())
     }
 
     /// What a candidate's evidence has over that of the first one, as a power of two.
@@ -362,7 +376,10 @@ impl Telescoped {
     fn see(&mut self, classes: &Classes, class: &Class) {
         let (Some(nodes), Some(end)) = (classes.nodes.get(class.nodes), classes.ends.get(class.end)) else { return };
         let elapsed = self.elapsed;
-        nodes.weights_ahead(elapsed, &mut self.node_weights);
+        if !nodes.from_now || self.node_weights_of != Some(class.nodes) {
+            nodes.weights_ahead(elapsed, &mut self.node_weights);
+            self.node_weights_of = Some(class.nodes);
+        }
         self.work.clear();
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         for candidate in &mut self.candidates {
@@ -375,7 +392,7 @@ impl Telescoped {
 impl Candidate {
     fn log_evidence(&self) -> f64 {
         match &self.source {
-            Source::Separable { now, .. } => now.log_evidence,
+            Source::Separable(axes) => axes.log_evidence,
             Source::Coupled(coupled) => coupled.filter.evidence(0),
         }
     }
@@ -383,8 +400,8 @@ impl Candidate {
     /// `p(x_1 | y_1)` and the filter, of the whole state.
     fn whole(&self) -> (Gaussian, Filter) {
         match &self.source {
-            Source::Separable { first, now } => {
-                let Coupled { first, filter } = coupled_of(first, now);
+            Source::Separable(axes) => {
+                let Coupled { first, filter } = coupled_of(axes);
                 (first, filter)
             }
             Source::Coupled(coupled) => (coupled.first.clone(), coupled.filter.clone()),
@@ -394,7 +411,7 @@ impl Candidate {
     /// The position now.
     fn position(&self) -> [f64; AXES] {
         match &self.source {
-            Source::Separable { now, .. } => now.filters.map(|filter| filter.mean[0]),
+            Source::Separable(axes) => std::array::from_fn(|k| axes.filters[k].now.mean[0]),
             Source::Coupled(coupled) => {
                 let s = coupled.filter.states;
                 std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })
@@ -418,26 +435,19 @@ impl Candidate {
         // nodes that count from now are as far from now as from where the start's prediction has come to by then
         let passed = if nodes.from_now { 0.0 } else { elapsed };
         match &self.source {
-            Source::Separable { first, now } => {
-                let Some(axes) = &end.axes else { return };
-                to_now.fill_axes(model, now, number, axes, nodes, passed);
-                let mut foreseen = *first;
-                if nodes.from_now {
-                    foreseen.foresee(first, model, elapsed);
+            Source::Separable(now) => {
+                let Some(ends) = &end.axes else { return };
+                to_now.fill_axes(model, now, number, ends, nodes, passed);
+                let foreseen;
+                let (start, start_tables) = if nodes.from_now {
+                    foreseen = now.foresee(model, elapsed);
+                    (&foreseen, &to_now.axes)
                 } else {
-                    to_start.fill_axes(model, first, number, axes, nodes, 0.0);
-                }
-                let start_tables = if nodes.from_now { &to_now.axes } else { &to_start.axes };
-                let sight = Sight {
-                    now,
-                    start: &foreseen,
-                    tables: &to_now.axes,
-                    start_tables,
-                    weights,
-                    weight: self.weight,
-                    lead,
+                    to_start.fill_axes(model, now, number, ends, nodes, 0.0);
+                    (&now.start, &to_start.axes)
                 };
-                work.see(&sight, axes);
+                let weight = self.weight;
+                work.see(&Sight { now, start, tables: &to_now.axes, start_tables, weights, weight, lead }, ends);
             }
             Source::Coupled(coupled) => {
                 to_now.fill_whole(model, number, nodes, passed);
@@ -481,8 +491,8 @@ impl StepsTo {
             return;
         }
         for axis in (0..axes.dimensions).filter(|&axis| axis == 0 || !axes.alike[axis]) {
-            let length = length.min(axes.filters[axis].states());
-            self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
+            let length = length.min(axes.filters[axis].states);
+            self.axes[axis].fill(model, axis, length, &nodes.times, passed);
         }
     }
 
@@ -496,45 +506,30 @@ impl StepsTo {
 }
 
 /// The filter of the whole state from those of separate axes.
-fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
-    let (start, filter) = (whole(first), whole(now));
-    let s = filter.states;
-    let mut covariance = DMatrix::zeros(s, s);
-    let d = first.dimensions;
-    for (axis, of) in first.filters.iter().enumerate().take(d) {
-        for i in 0..of.states() {
-            for j in 0..of.states() {
-                covariance[(i * d + axis, j * d + axis)] = of.covariance[i][j];
-            }
-        }
-    }
-    let first = Gaussian { mean: start.means.column(0).rows(s, s).into_owned(), covariance };
-    Coupled { first, filter }
-}
-
-fn whole(axes: &Axes) -> Filter {
+fn coupled_of(axes: &Axes) -> Coupled {
     let d = axes.dimensions;
-    let s = axes.filters.iter().take(d).map(AxisFilter::states).sum();
-    let zero = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
-    let mut filter = Filter::new(&zero, 1);
+    let s = axes.filters.iter().take(d).map(|filter| filter.states).sum();
+    let mut first = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
+    let mut filter = Filter::new(&first, 1);
     filter.log_evidence = vec![axes.log_evidence];
-    for (axis, of) in axes.filters.iter().enumerate().take(d) {
-        for (from, to) in places(of.states(), axis, d, s) {
-            filter.means[(to, 0)] = of.mean[from];
+    for (axis, (of, start)) in axes.filters.iter().zip(&axes.start).enumerate().take(d) {
+        let n = of.states;
+        for i in 0..n {
+            let row = i * d + axis;
+            filter.means[(row, 0)] = of.first_mean[i];
+            filter.means[(s + row, 0)] = of.now.mean[i];
+            first.mean[row] = start.mean[i];
+            for j in 0..n {
+                first.covariance[(row, j * d + axis)] = start.covariance[i][j];
+            }
         }
-        let n = of.states();
-        for (i, row) in of.root.iter().enumerate().take(2 * n) {
-            for (j, entry) in row.iter().enumerate().take(2 * n) {
-                filter.root[(row_of(i, n, axis, d, s), row_of(j, n, axis, d, s))] = *entry;
+        for i in 0..2 * n {
+            for j in 0..2 * n {
+                filter.root[(row_of(i, n, axis, d, s), row_of(j, n, axis, d, s))] = of.root[i][j];
             }
         }
     }
-    filter
-}
-
-/// Where the components of an axis stand, in its own filter and in that of the whole state, whose first half is the first state.
-fn places(states: usize, axis: usize, d: usize, s: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..states).flat_map(move |i| [(i, s + i * d + axis), (MOST + i, i * d + axis)])
+    Coupled { first, filter }
 }
 
 /// Where a row of an axis's root stands in that of the whole state; both have the first state first.
@@ -542,40 +537,32 @@ fn row_of(i: usize, states: usize, axis: usize, d: usize, s: usize) -> usize {
     if i < states { i * d + axis } else { s + (i - states) * d + axis }
 }
 
-/// The filters of separate axes from those of the whole state; none where the model or the state mixes axes.
-fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
-    let mut now = Axes::new(model)?;
-    let (d, s) = (now.dimensions, filter.states);
-    if !filter.root.iter().all(|x| x.is_finite()) {
-        return None;
-    }
+/// The filters of separate axes from that of the whole state; none where the model or the state mixes axes.
+fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<Axes> {
+    let mut axes = Axes::new(model)?;
+    let (d, s) = (axes.dimensions, filter.states);
     let mixes = |i: usize, j: usize| i % s % d != j % s % d && filter.root[(i, j)] != 0.0;
-    if (0..2 * s).any(|i| (0..2 * s).any(|j| mixes(i, j))) {
+    if !filter.root.iter().all(|x| x.is_finite()) || (0..2 * s).any(|i| (0..2 * s).any(|j| mixes(i, j))) {
         return None;
     }
-    let mut start = now;
-    let beginning = Filter::new(first, 1);
-    for axis in 0..d {
-        let states = now.filters[axis].states();
-        for (to, from) in places(states, axis, d, s) {
-            now.filters[axis].mean[to] = filter.means[(from, 0)];
-            start.filters[axis].mean[to] = first.mean[from % s];
-        }
-        for (axes, whole) in [(&mut now, filter), (&mut start, &beginning)] {
-            for i in 0..2 * states {
-                for j in 0..2 * states {
-                    let entry = whole.root[(row_of(i, states, axis, d, s), row_of(j, states, axis, d, s))];
-                    axes.filters[axis].root[i][j] = entry;
-                }
-            }
-            axes.filters[axis].square();
-        }
-        for i in 0..states {
-            for j in 0..states {
-                start.filters[axis].covariance[i][j] = first.covariance[(i * d + axis, j * d + axis)];
+    for (axis, (of, start)) in axes.filters.iter_mut().zip(&mut axes.start).enumerate().take(d) {
+        let n = of.states;
+        for i in 0..n {
+            let row = i * d + axis;
+            of.first_mean[i] = filter.means[(row, 0)];
+            of.now.mean[i] = filter.means[(s + row, 0)];
+            start.mean[i] = first.mean[row];
+            for j in 0..n {
+                start.covariance[i][j] = first.covariance[(row, j * d + axis)];
             }
         }
+        for i in 0..2 * n {
+            for j in 0..2 * n {
+                of.root[i][j] = filter.root[(row_of(i, n, axis, d, s), row_of(j, n, axis, d, s))];
+            }
+        }
+        of.square();
     }
-    now.log_evidence = *filter.log_evidence.first()?;
-    Some((start, now))
+    axes.log_evidence = *filter.log_evidence.first()?;
+    Some(axes)
 }

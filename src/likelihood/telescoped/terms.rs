@@ -6,10 +6,11 @@
 //! ln N(a; m, v) / N(a; u_n, u) = -(1/v - 1/u) d^2 / 2 + d (m - u_n) / u + (m - u_n)^2 / 2u + ln(u / v) / 2
 //! ```
 //!
-//! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
+//! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken. Loops are plain, as in [`super::separable`].
+#![allow(clippy::needless_range_loop, reason = "the axes of several arrays at once")]
 
 use super::classes::{Class, Classes};
-use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
+use super::separable::{Axes, AxisEnd, AxisState, MOST, NodeTable};
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, Places, Term, log2_sums, weigh};
 
@@ -17,25 +18,33 @@ use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, Places, Term
 /// too much, and the [`Ellipsoid`] is taken.
 const MOST_BITS: f64 = 256.0;
 
-/// The endpoint's position for eight nodes, seen from now and from the start, without its own variance.
-#[derive(Clone, Copy, Debug)]
+const ZERO: Block = [0.0; WIDTH];
+
+/// The endpoint's position in one axis for eight nodes, seen from now and from the start, without its own variance.
+#[derive(Clone, Copy, Debug, Default)]
+struct AxisBlock {
+    mean: Block,
+    variance: Block,
+    start_mean: Block,
+    start_variance: Block,
+}
+
+/// The same in all axes.
+#[derive(Clone, Copy, Debug, Default)]
 struct EndBlock {
-    mean: [Block; AXES],
-    variance: [Block; AXES],
-    start_mean: [Block; AXES],
-    start_variance: [Block; AXES],
+    axes: [AxisBlock; AXES],
     /// The node's weight times what the rest of the endpoint gives; zero for nodes that have passed.
     factor: Block,
     /// What is added to the exponent.
     constant: Block,
 }
 
-const ZERO: Block = [0.0; WIDTH];
-
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
     ends: Vec<EndBlock>,
+    /// How many of the ends are in use.
+    count: usize,
     /// Whether the axes of all ends have one variance.
     round: bool,
     /// Coupled sources put their terms here.
@@ -49,9 +58,9 @@ pub struct Work {
 pub struct Sight<'a> {
     /// The filters now.
     pub now: &'a Axes,
-    /// What the start says of the state at `start_tables`' origin.
-    pub start: &'a Axes,
-    /// Transitions to the nodes from now, for each axis.
+    /// What the start says of the state that `start_tables` begin with.
+    pub start: &'a [AxisState; MOST],
+    /// Transitions to the nodes from now, for each axis that is not as the first one.
     pub tables: &'a [NodeTable; MOST],
     /// Transitions to the nodes from where `start` is.
     pub start_tables: &'a [NodeTable; MOST],
@@ -66,55 +75,60 @@ pub struct Sight<'a> {
 impl Work {
     /// Forgets the ends and terms of another class.
     pub fn clear(&mut self) {
-        self.ends.clear();
+        self.count = 0;
         self.ellipsoids.clear();
         self.round = true;
     }
 
     /// Adds the ends that one noise candidate sees.
     #[inline(never)]
-    pub fn see(&mut self, sight: &Sight<'_>, axes: &[AxisEnd; MOST]) {
-        let (now, start) = (sight.now, sight.start);
-        let alike: [bool; MOST] = std::array::from_fn(|k| {
-            now.shares(k) && start.shares(k) && axes[k] == AxisEnd { mean: axes[k].mean, ..axes[0] }
-        });
-        self.round &= alike[..now.dimensions].iter().all(|alike| *alike);
+    pub fn see(&mut self, sight: &Sight<'_>, ends: &[AxisEnd; MOST]) {
+        let (now, d) = (sight.now, sight.now.dimensions.min(MOST));
+        let mut alike = [true; MOST];
+        for axis in 1..d {
+            let same_end = ends[axis].length == ends[0].length && ends[axis].covariance == ends[0].covariance;
+            alike[axis] = same_end && now.shares(axis);
+            self.round &= alike[axis];
+        }
+        let lead = Lanes::splat(sight.lead);
         for (b, weights) in sight.weights.iter().enumerate() {
-            let mut ends = EndBlock {
-                mean: [ZERO; AXES],
-                variance: [ZERO; AXES],
-                start_mean: [ZERO; AXES],
-                start_variance: [ZERO; AXES],
-                factor: ZERO,
-                constant: ZERO,
-            };
-            let mut exponent = Lanes::splat(sight.lead);
-            let mut density = Lanes::splat(1.0);
-            let mut start_density = Lanes::splat(1.0);
-            let mut spreads = None;
-            for axis in 0..now.dimensions {
-                let of = if now.alike[axis] { 0 } else { axis };
-                let (table, start_table) = (&sight.tables[of], &sight.start_tables[of]);
-                let (filter, start_filter, end) = (&now.filters[axis], &start.filters[axis], &axes[axis]);
-                let (spread, start_spread) = match spreads {
-                    Some(spreads) if alike[axis] => spreads,
-                    _ => (Spread::new(table, b, filter, end), Spread::new(start_table, b, start_filter, end)),
-                };
-                spreads = spreads.or(Some((spread, start_spread)));
-                let there = spread.ends(table, b, filter, end);
-                let from_start = start_spread.ends(start_table, b, start_filter, end);
-                there.mean.store(&mut ends.mean[axis]);
-                there.variance.store(&mut ends.variance[axis]);
-                from_start.mean.store(&mut ends.start_mean[axis]);
-                from_start.variance.store(&mut ends.start_variance[axis]);
-                exponent = exponent + (there.exponent - from_start.exponent);
-                density = density * there.density;
-                start_density = start_density * from_start.density;
+            if self.count == self.ends.len() {
+                self.ends.push(EndBlock::default());
             }
-            (Lanes::splat(sight.weight) * Lanes::load(weights) * (density / start_density).sqrt())
-                .store(&mut ends.factor);
-            exponent.store(&mut ends.constant);
-            self.ends.push(ends);
+            let Some(block) = self.ends.get_mut(self.count) else { return };
+            self.count += 1;
+            let (mut exponent, mut density, mut start_density) = (lead, Lanes::splat(1.0), Lanes::splat(1.0));
+            for axis in 0..d {
+                let table = if now.alike[axis] { 0 } else { axis };
+                let (rows, start_rows) = (sight.tables[table].rows(b), sight.start_tables[table].rows(b));
+                let (state, start, end) = (&now.filters[axis].now, &sight.start[axis], &ends[axis]);
+                if end.length > 1 {
+                    let (here, there) = (rows.ends(state, end), start_rows.ends(start, end));
+                    let into = &mut block.axes[axis];
+                    here.mean.store(&mut into.mean);
+                    here.variance.store(&mut into.variance);
+                    there.mean.store(&mut into.start_mean);
+                    there.variance.store(&mut into.start_variance);
+                    exponent = exponent + (here.exponent - there.exponent);
+                    density = density * here.density;
+                    start_density = start_density * there.density;
+                    continue;
+                }
+                let [first, ..] = block.axes;
+                let into = &mut block.axes[axis];
+                rows.position(state).store(&mut into.mean);
+                start_rows.position(start).store(&mut into.start_mean);
+                if axis > 0 && alike[axis] {
+                    into.variance = first.variance;
+                    into.start_variance = first.start_variance;
+                } else {
+                    rows.variance(state).store(&mut into.variance);
+                    start_rows.variance(start).store(&mut into.start_variance);
+                }
+            }
+            let weight = Lanes::splat(sight.weight) * Lanes::load(weights);
+            (weight * (density / start_density).sqrt()).store(&mut block.factor);
+            exponent.store(&mut block.constant);
         }
     }
 
@@ -131,16 +145,16 @@ impl Work {
         let places = classes.places(class, origin);
         let priors = &classes.priors[class.blocks.clone()];
         let (d, weights) = (classes.dimensions, &mut weights[class.blocks.clone()]);
-        match class.size {
+        match &class.size {
             None => {
                 self.owns();
                 weigh_in(d, &self.owns, &places, shift, priors, weights)
             }
             Some(size) => {
-                if self.balls(d, &size, &origin) {
+                if self.balls(d, size, &origin) {
                     weigh_in(d, &self.balls, &places, shift, priors, weights)
                 } else {
-                    self.ellipsoids(d, &size);
+                    self.ellipsoids(d, size);
                     weigh_in(d, &self.ellipsoids, &places, shift, priors, weights)
                 }
             }
@@ -152,13 +166,13 @@ impl Work {
     pub fn log2_sums(&mut self, classes: &Classes, class: &Class, logs: &mut [Block]) {
         let places = classes.places(class, [0.0; AXES]);
         let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
-        match class.size {
+        match &class.size {
             None => {
                 self.owns();
                 log2_sums_in(d, &self.owns, &places, logs);
             }
             Some(size) => {
-                self.ellipsoids(d, &size);
+                self.ellipsoids(d, size);
                 log2_sums_in(d, &self.ellipsoids, &places, logs);
             }
         }
@@ -166,60 +180,72 @@ impl Work {
 
     fn owns(&mut self) {
         self.owns.clear();
-        for ends in &self.ends {
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
-                let of = |blocks: &[Block; AXES]| blocks.map(|block| block[lane]);
-                self.owns.push(Own {
-                    mean: of(&ends.mean),
-                    variance: of(&ends.variance),
-                    start_mean: of(&ends.start_mean),
-                    start_variance: of(&ends.start_variance),
-                    constant: ends.constant[lane],
-                    factor: ends.factor[lane],
-                });
+        for block in self.ends.iter().take(self.count) {
+            for lane in 0..WIDTH {
+                if block.factor[lane] <= 0.0 {
+                    continue;
+                }
+                let mut term = Own { constant: block.constant[lane], factor: block.factor[lane], ..Own::default() };
+                for (axis, of) in block.axes.iter().enumerate() {
+                    term.mean[axis] = of.mean[lane];
+                    term.variance[axis] = of.variance[lane];
+                    term.start_mean[axis] = of.start_mean[lane];
+                    term.start_variance[axis] = of.start_variance[lane];
+                }
+                self.owns.push(term);
             }
         }
     }
 
     /// The terms as balls; false where they would cancel or are none.
     fn balls(&mut self, dimensions: usize, size: &[f64; MOST], origin: &[f64; AXES]) -> bool {
+        let d = dimensions.min(AXES);
         self.balls.clear();
-        if self.ends.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
+        if self.count == 0 || !self.round {
             return false;
         }
-        let half = Lanes::splat(HALF_LOG2_E);
-        for ends in &self.ends {
-            let v = Lanes::load(&ends.variance[0]) + Lanes::splat(size[0]);
-            let u = Lanes::load(&ends.start_variance[0]) + Lanes::splat(size[0]);
-            let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
-            let mut slope = [ZERO; AXES];
+        for axis in 1..d {
+            if size[axis] != size[0] {
+                return false;
+            }
+        }
+        let (half, own) = (Lanes::splat(HALF_LOG2_E), Lanes::splat(size[0]));
+        let [mut curvature, mut constant, mut factors, mut bits] = [ZERO; 4];
+        let mut slope = [ZERO; AXES];
+        for block in self.ends.iter().take(self.count) {
+            let v = Lanes::load(&block.axes[0].variance) + own;
+            let u = Lanes::load(&block.axes[0].start_variance) + own;
+            let over = Lanes::splat(1.0) / (v * u);
+            let (over_v, over_u) = (over * u, over * v);
             let (mut squares, mut start_squares) = (Lanes::splat(0.0), Lanes::splat(0.0));
-            for axis in 0..dimensions {
-                let p = Lanes::load(&ends.mean[axis]) - Lanes::splat(origin[axis]);
-                let g = Lanes::load(&ends.start_mean[axis]) - Lanes::splat(origin[axis]);
+            for axis in 0..d {
+                let p = Lanes::load(&block.axes[axis].mean) - Lanes::splat(origin[axis]);
+                let g = Lanes::load(&block.axes[axis].start_mean) - Lanes::splat(origin[axis]);
                 let (from_p, from_g) = (p * over_v, g * over_u);
                 ((half + half) * (from_p - from_g)).store(&mut slope[axis]);
                 squares = squares + p * from_p;
                 start_squares = start_squares + g * from_g;
             }
             let ratio = u * over_v;
-            let factor = match dimensions {
+            let factor = match d {
                 1 => ratio.sqrt(),
                 2 => ratio,
                 _ => ratio * ratio.sqrt(),
             };
-            let [mut curvature, mut constant, mut factors, mut bits] = [ZERO; 4];
-            (half * (v - u) * over_v * over_u).store(&mut curvature);
-            (Lanes::load(&ends.constant) + half * (start_squares - squares)).store(&mut constant);
-            (Lanes::load(&ends.factor) * factor).store(&mut factors);
+            (half * (v - u) * over).store(&mut curvature);
+            (Lanes::load(&block.constant) + half * (start_squares - squares)).store(&mut constant);
+            (Lanes::load(&block.factor) * factor).store(&mut factors);
             (half * squares.at_least(start_squares)).store(&mut bits);
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
+            for lane in 0..WIDTH {
+                if factors[lane] <= 0.0 {
+                    continue;
+                }
                 if bits[lane] > MOST_BITS {
                     return false;
                 }
                 self.balls.push(Ball {
                     curvature: curvature[lane],
-                    slope: slope.map(|block| block[lane]),
+                    slope: [slope[0][lane], slope[1][lane], slope[2][lane]],
                     constant: constant[lane],
                     factor: factors[lane],
                 });
@@ -230,38 +256,42 @@ impl Work {
 
     /// The terms as ellipsoids; those of a coupled source are there already.
     fn ellipsoids(&mut self, dimensions: usize, size: &[f64; MOST]) {
-        if self.ends.is_empty() {
+        if self.count == 0 {
             return;
         }
+        let d = dimensions.min(AXES);
         self.ellipsoids.clear();
         let half = Lanes::splat(HALF_LOG2_E);
-        for ends in &self.ends {
-            let [mut slope, mut curvature] = [[ZERO; AXES]; 2];
+        let [mut slope, mut curvature] = [[ZERO; AXES]; 2];
+        let [mut constants, mut factors] = [ZERO; 2];
+        for block in self.ends.iter().take(self.count) {
             let mut ratio = Lanes::splat(1.0);
-            let mut constant = Lanes::load(&ends.constant);
-            for axis in 0..dimensions {
-                let v = Lanes::load(&ends.variance[axis]) + Lanes::splat(size[axis]);
-                let u = Lanes::load(&ends.start_variance[axis]) + Lanes::splat(size[axis]);
-                let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
-                let apart = Lanes::load(&ends.mean[axis]) - Lanes::load(&ends.start_mean[axis]);
-                let lean = half * apart * over_u;
+            let mut constant = Lanes::load(&block.constant);
+            for axis in 0..d {
+                let of = &block.axes[axis];
+                let v = Lanes::load(&of.variance) + Lanes::splat(size[axis]);
+                let u = Lanes::load(&of.start_variance) + Lanes::splat(size[axis]);
+                let over = Lanes::splat(1.0) / (v * u);
+                let apart = Lanes::load(&of.mean) - Lanes::load(&of.start_mean);
+                let lean = half * apart * (over * v);
                 (lean + lean).store(&mut slope[axis]);
-                (half * (v - u) * over_v * over_u).store(&mut curvature[axis]);
+                (half * (v - u) * over).store(&mut curvature[axis]);
                 constant = constant + lean * apart;
-                ratio = ratio * (u * over_v);
+                ratio = ratio * (u * (over * u));
             }
-            let [mut constants, mut factors] = [ZERO; 2];
             constant.store(&mut constants);
-            (Lanes::load(&ends.factor) * ratio.sqrt()).store(&mut factors);
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
-                let diagonal = |i: usize, j: usize| if i == j { curvature[i][lane] } else { 0.0 };
-                self.ellipsoids.push(Ellipsoid {
-                    center: ends.mean.map(|block| block[lane]),
-                    curvature: std::array::from_fn(|i| std::array::from_fn(|j| diagonal(i, j))),
-                    slope: slope.map(|block| block[lane]),
-                    constant: constants[lane],
-                    factor: factors[lane],
-                });
+            (Lanes::load(&block.factor) * ratio.sqrt()).store(&mut factors);
+            for lane in 0..WIDTH {
+                if factors[lane] <= 0.0 {
+                    continue;
+                }
+                let mut term = Ellipsoid { constant: constants[lane], factor: factors[lane], ..Ellipsoid::default() };
+                for axis in 0..d {
+                    term.center[axis] = block.axes[axis].mean[lane];
+                    term.curvature[axis][axis] = curvature[axis][lane];
+                    term.slope[axis] = slope[axis][lane];
+                }
+                self.ellipsoids.push(term);
             }
         }
     }
