@@ -55,13 +55,13 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
                 let a = end(i);
                 let one = Gaussian {
                     mean: &predicted.mean + &now.gain * (&a - &rest.transition * &predicted.mean - &rest.offset),
-                    covariance: now.covariance.clone(),
+                    covariance: now.covariance(),
                 };
                 let smoothed = &state.mean + &earlier.gain * (&a - &whole.transition * &state.mean - &whole.offset);
                 let moved = &step.transition * smoothed + &step.offset;
                 let two = Gaussian {
                     mean: &moved + &later.gain * (&a - &rest.transition * &moved - &rest.offset),
-                    covariance: propagate(&(&kept * &step.transition), &earlier.covariance, &later.covariance),
+                    covariance: propagate(&(&kept * &step.transition), &earlier.covariance(), &later.covariance()),
                 };
                 *joint = advance(joint, &onward, &onward.offset(&step.offset, &rest.offset));
                 let original = seen(&upper(joint, s), &observation, &noise);
@@ -127,7 +127,7 @@ fn correct(state: &mut Gaussian, observation: &DMatrix<f64>, noise: &DMatrix<f64
     let conditioned = condition(&state.covariance, &wide, noise).expect("the noise is positive definite");
     let error = y - wide * &state.mean;
     state.mean += conditioned.gain * error;
-    state.covariance = conditioned.covariance;
+    state.covariance = conditioned.covariance();
 }
 
 /// `d' S^-1 d / 8 + ln(det S / sqrt(det S_1 det S_2)) / 2` with `S` the mean of both covariances.
