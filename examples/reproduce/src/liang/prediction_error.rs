@@ -126,7 +126,7 @@ fn correct(state: &mut Gaussian, observation: &DMatrix<f64>, noise: &DMatrix<f64
     let wide = observation.clone().resize_horizontally(state.mean.len(), 0.0);
     let conditioned = condition(&state.covariance, &wide, noise).expect("the noise is positive definite");
     let error = y - wide * &state.mean;
-    state.mean += conditioned.gain * error;
+    state.mean += &conditioned.gain * error;
     state.covariance = conditioned.covariance();
 }
 
