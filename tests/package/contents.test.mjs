@@ -3,8 +3,9 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
-import { gunzipSync, gzipSync } from "node:zlib";
+import { gunzipSync } from "node:zlib";
 import { capture, root } from "../../scripts/run.mjs";
+import { sizes } from "../../scripts/size.mjs";
 import { project } from "./support.mjs";
 
 /** A guard: what makes the package heavier than this in gzipped bytes was not weighed. */
@@ -68,10 +69,9 @@ test("the package", async (t) => {
   });
 
   await t.test("is as light as it was", (t) => {
-    const weigh = (names) => names.reduce((sum, name) => sum + gzipSync(read(`dist/${name}`), { level: 9 }).length, 0);
-    const full = weigh(["index.js", "shared.js", "bytes.js"]);
-    const slim = weigh(["slim.js", "shared.js", "whither.wasm"]);
-    t.diagnostic(`gzipped: whither ${full} bytes; whither/slim with whither.wasm ${slim} bytes`);
+    const rows = sizes(join(installed, "dist"));
+    for (const { name, gzip } of rows) t.diagnostic(`${name}: ${gzip} bytes under gzip`);
+    const full = rows.find(({ name }) => name.startsWith("`whither`")).gzip;
     assert.ok(full <= heaviest, `whither is ${full} bytes under gzip`);
   });
 });

@@ -1,0 +1,81 @@
+// The part in Chromium: wall-clock time of the page's one thread. Bundled by scripts/bench.mjs, called from outside.
+import { ForesightManager } from "js.foresight";
+import { init, pointerScenario, Predictor } from "whither";
+import { cases } from "./cases.mjs";
+import { interleave } from "./measure.mjs";
+import { effort, measureCases } from "./suite.mjs";
+
+const clock = () => performance.now();
+
+/** What one pointer event costs with ForesightJS, with ours and with nobody listening: 21 elements, none of which is hit. */
+async function measureForesight(options) {
+  const count = 21;
+  // It works in animation frames, of which a headless page has few: here a frame is over as soon as it is asked for.
+  const frames = [];
+  globalThis.requestAnimationFrame = (callback) => frames.push(callback);
+  globalThis.cancelAnimationFrame = () => {};
+  let called = 0;
+  const manager = ForesightManager.initialize({ enableTabPrediction: false, enableScrollPrediction: false });
+  const size = 60;
+  const targets = Array.from({ length: count }, (_, i) => ({
+    id: `d${i}`,
+    x: 100 + 150 * (i % 7),
+    y: 200 + 150 * Math.floor(i / 7),
+    width: size,
+    height: size,
+  }));
+  for (const { x, y } of targets) {
+    const element = document.createElement("div");
+    const place = { left: `${x - size / 2}px`, top: `${y - size / 2}px`, width: `${size}px`, height: `${size}px` };
+    Object.assign(element.style, { position: "absolute", ...place });
+    document.body.append(element);
+    manager.register({ element, callback: () => called++ });
+  }
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  const seen = [...manager.getManagerData.registeredElements.values()].filter((state) => state.isIntersectingWithViewport);
+  if (seen.length !== count) throw new Error(`ForesightJS looks at ${seen.length} elements of ${count}`);
+
+  // Above all the elements: whatever is called back is not looked at any more.
+  let next = 0;
+  const dispatch = (target, settle) => (times) => {
+    for (let k = 0; k < times; k++, next++) {
+      const clientX = 600 + 500 * Math.sin(next / 40);
+      target.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY: 40, pointerType: "mouse" }));
+      settle?.();
+    }
+  };
+  const predictor = new Predictor(pointerScenario(targets));
+  const into = new Float64Array(count);
+  let time = 0;
+  const ours = new EventTarget();
+  ours.addEventListener("pointermove", ({ clientX, clientY }) => {
+    predictor.observe((time += 0.008), [clientX, clientY]);
+    predictor.probabilities(into);
+  });
+  const nobody = new EventTarget();
+  nobody.addEventListener("pointermove", () => {});
+  const frame = () => frames.splice(0).forEach((callback) => callback(0));
+  const entries = [
+    { name: "theirs", run: dispatch(document, frame) },
+    { name: "ours", run: dispatch(ours) },
+    { name: "nobody", run: dispatch(nobody) },
+  ];
+  const spent = interleave(entries, clock, options);
+  if (called > 0) throw new Error("an element was hit, so that ForesightJS had less to do");
+  const [{ x: clientX, y: clientY }] = targets;
+  document.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY, pointerType: "mouse" }));
+  frame();
+  if (called === 0) throw new Error("ForesightJS did not see the pointer");
+  const net = (name) => 1000 * (spent[name] - spent.nobody);
+  return { microseconds: net("theirs"), ours: net("ours") };
+}
+
+globalThis.measure = async (quick) => {
+  await init();
+  const options = effort(quick);
+  const progress = (name) => globalThis.progress(`Chromium: ${name}`);
+  return {
+    cases: await measureCases({ Predictor, pointerScenario }, cases({ quick }), clock, options, progress),
+    foresight: (await progress("ForesightJS, one pointer event"), await measureForesight(options)),
+  };
+};

@@ -1,0 +1,66 @@
+// The rows of the tables. Each is one `observe` and `probabilities(into)` in mid-movement.
+
+/** The densities for each destination under "pointing": two noise scales times seven times to go. */
+const POINTING = 14;
+
+/** Observations in a movement of the methods that accumulate. */
+const LENGTH = 40;
+
+const PAPERS = ["pseudoObservation", "singleFilterApproximate", "algorithm1", "bridging", "algorithm2", "singleFilter"];
+
+/** Design section 5: what a step may cost, against as many `Math.exp` as there are pairs of destination and node. */
+const budgets = [
+  { count: 21, limit: 0.6, stretch: 0.45 },
+  { count: 10_000, limit: 0.3, stretch: 0.2 },
+  { count: 21, sizes: "own", limit: 0.9, stretch: 0.7 },
+  { count: 10_000, sizes: "own", limit: 0.55, stretch: 0.45 },
+  { count: 21, coupled: true, limit: 10, stretch: 3 },
+  { count: 10_000, coupled: true, limit: 0.5, stretch: 0.3 },
+  // At most the same cost for each density.
+  { count: 21, method: "pointing", limit: 0.6, stretch: 0.45 },
+  { count: 10_000, method: "pointing", limit: 0.3, stretch: 0.2 },
+  { count: 21, sizes: "own", method: "pointing", limit: 0.9, stretch: 0.7 },
+  { count: 10_000, sizes: "own", method: "pointing", limit: 0.55, stretch: 0.45 },
+];
+
+/**
+ * `{ group, name, count, pairs, ... }`: `length` is that of a movement, where it has to end; `before` the number of
+ * observations that come before what is measured.
+ */
+export function cases({ quick = false } = {}) {
+  const counts = quick ? [6, 21, 100, 1000, 10_000] : [6, 21, 100, 1000, 10_000, 100_000];
+  const both = ["pseudoObservation", "pointing"];
+  const times = (list, rows) => list.flatMap((count) => rows.map((row) => ({ count, ...row })));
+  const groups = {
+    destinations: both.flatMap((method) => counts.map((count) => ({ method, count }))),
+    nodes: [1, 5, 15, 31, 51].map((points) => ({ count: 1000, points })),
+    dimensions: [1, 2, 3].map((dimensions) => ({ count: 1000, dimensions })),
+    observations: both.flatMap((method) =>
+      (quick ? [100, 10_000] : [100, 10_000, 1_000_000]).map((before) => ({ method, count: 21, before })),
+    ),
+    methods: times(quick ? [21] : [6, 21, 100], [
+      ...PAPERS.map((method) => ({ method, length: LENGTH })),
+      { method: "pointing" },
+    ]),
+    // last, when everything is compiled as well as it will be
+    budget: budgets,
+  };
+  return Object.entries(groups).flatMap(([group, rows]) => rows.map((row) => complete({ group, ...row })));
+}
+
+function complete(row) {
+  const filled = { points: 15, dimensions: 2, sizes: "one", coupled: false, method: "pseudoObservation", ...row };
+  const { group, method, count, points, dimensions, sizes, coupled, before } = filled;
+  const pointing = method === "pointing";
+  const name = [
+    group,
+    method,
+    `N ${count}`,
+    pointing ? "" : `q ${points}`,
+    dimensions === 2 ? "" : `d ${dimensions}`,
+    sizes === "own" ? "own sizes" : "",
+    coupled ? "coupled" : "",
+    before === undefined ? "" : `after ${before}`,
+  ];
+  return { ...filled, name: name.filter((part) => part !== "").join(", "), pairs: count * (pointing ? POINTING : points) };
+}

@@ -1,0 +1,169 @@
+// The tables of `npm run bench`.
+import { showSizes } from "../scripts/size.mjs";
+import { table } from "../scripts/table.mjs";
+import { line } from "./measure.mjs";
+
+const count = (n) => n.toLocaleString("en-GB");
+const digits = (x) => (Math.abs(x) < 10 ? x.toFixed(2) : Math.abs(x) < 100 ? x.toFixed(1) : count(Math.round(x)));
+const met = (yes) => (yes ? "met" : "missed");
+
+/** Prints everything. */
+export function report(result) {
+  const { date, machine, node, chromium, numpy, quick } = result;
+  const versions = `Node ${node.version.slice(1)}, Chromium ${chromium.version}, ${numpy ? `numpy ${numpy.numpy}` : "no numpy"}`;
+  console.log(`\n${date}, ${machine}, ${versions}${quick ? "; quick: rough numbers" : ""}\n`);
+  const platforms = [
+    ["Node", node.cases],
+    ["Chromium", chromium.cases],
+    ["native", result.native.cases],
+  ];
+  const of = (group) => result.cases.filter((one) => one.group === group);
+  showBudgets(of("budget"), platforms);
+  showGrowth(of, platforms);
+  showObservations(of("observations"), platforms);
+  showMethods(of("methods"), platforms);
+  showPeers(result, of("methods"), of("budget"));
+  showMemory(result.memory);
+  console.log("From `import` to the first prediction, Chromium:\n");
+  table(
+    ["processor slowed down", "ms"],
+    chromium.start.map(({ throttle, milliseconds }) => [throttle === 1 ? "not" : `${throttle} times`, digits(milliseconds)]),
+  );
+  console.log("Size:\n");
+  showSizes(result.sizes);
+}
+
+function describe({ method, sizes, coupled }) {
+  if (method === "pointing") return sizes === "own" ? "pointing, each its size" : "pointing";
+  return coupled ? "coupled noise" : sizes === "own" ? "each its size" : "one size";
+}
+
+function showBudgets(rows, platforms) {
+  console.log("One `observe` and `probabilities(into)`, 2-D, q = 15 (pointing: 14 densities), against N q calls of `Math.exp`:\n");
+  const node = platforms[0][1];
+  table(
+    ["", "N", "Node, µs", ...platforms.map(([name]) => `${name}, ratio`), "at most", "stretch", "in Node"],
+    rows.map((one) => [
+      describe(one),
+      count(one.count),
+      digits(node[one.name].microseconds),
+      ...platforms.map(([, cases]) => digits(cases[one.name].ratio)),
+      one.limit,
+      one.stretch,
+      met(node[one.name].ratio <= one.limit),
+    ]),
+  );
+}
+
+/** The exponent of a power law through the points. */
+const exponent = (points) => line(points.map((point) => point.map(Math.log)));
+
+function showGrowth(of, platforms) {
+  const headings = ["", "N", "q", "d", ...platforms.map(([name]) => `${name}, µs`), "Node, ns a pair", "Node, ratio"];
+  const cells = (one) => [
+    one.method,
+    count(one.count),
+    one.method === "pointing" ? 14 : one.points,
+    one.dimensions,
+    ...platforms.map(([, cases]) => digits(cases[one.name].microseconds)),
+    digits((1000 * platforms[0][1][one.name].microseconds) / one.pairs),
+    digits(platforms[0][1][one.name].ratio),
+  ];
+  console.log("Growth with N, q and d, one size:\n");
+  table(headings, [...of("destinations"), ...of("nodes"), ...of("dimensions")].map(cells));
+  console.log("The lines through it: `µs = fixed + each N`, or q; and the exponent of a power law from N = 1000, or q = 5:\n");
+  const fits = [
+    ["N, pseudoObservation", of("destinations").filter(({ method }) => method !== "pointing"), "count", 1000],
+    ["N, pointing", of("destinations").filter(({ method }) => method === "pointing"), "count", 1000],
+    ["q, pseudoObservation", of("nodes"), "points", 5],
+  ];
+  const fitted = fits.flatMap(([name, rows, key, least]) =>
+    platforms.map(([platform, cases]) => {
+      const points = rows.map((one) => [one[key], cases[one.name].microseconds]);
+      const straight = line(points);
+      const power = exponent(points.filter(([x]) => x >= least));
+      const { slope, intercept, explained } = straight;
+      return [`${name}, ${platform}`, digits(intercept), slope.toPrecision(3), explained.toFixed(5), power.slope.toFixed(3)];
+    }),
+  );
+  table(["", "fixed, µs", "each, µs", "R²", "exponent"], fitted);
+}
+
+function showObservations(rows, platforms) {
+  console.log("A step after many observations, N = 21, µs; the exponent is 0 where it does not grow:\n");
+  const methods = [...new Set(rows.map(({ method }) => method))];
+  const befores = [...new Set(rows.map(({ before }) => before))];
+  const cells = methods.flatMap((method) =>
+    platforms.map(([platform, cases]) => {
+      const times = befores.map((before) => {
+        const one = rows.find((row) => row.method === method && row.before === before);
+        return [before, cases[one.name].microseconds];
+      });
+      return [`${method}, ${platform}`, ...times.map(([, time]) => digits(time)), exponent(times).slope.toFixed(3)];
+    }),
+  );
+  table(["", ...befores.map((before) => `after ${count(before)}`), "exponent"], cells);
+}
+
+function showMethods(rows, platforms) {
+  console.log("By method, q = 15, µs:\n");
+  const counts = [...new Set(rows.map((row) => row.count))];
+  const columns = counts.flatMap((n) => platforms.map(([name, cases]) => ({ n, name, cases })));
+  const methods = [...new Set(rows.map(({ method }) => method))];
+  table(
+    ["method", ...columns.map(({ n, name }) => `N = ${n}, ${name}`)],
+    methods.map((method) => {
+      const time = ({ n, cases }) => cases[rows.find((row) => row.method === method && row.count === n).name].microseconds;
+      return [method, ...columns.map((column) => digits(time(column)))];
+    }),
+  );
+}
+
+function showPeers({ native, node, chromium, numpy }, methods, budget) {
+  console.log("Peers, 21 destinations, q = 15, in the same run:\n");
+  const named = (method) => methods.find((one) => one.method === method && one.count === 21).name;
+  const natively = (method) => native.cases[named(method)].microseconds;
+  const inNode = (method) => node.cases[named(method)].microseconds;
+  const screen = node.cases[budget.find(({ limit, count, sizes }) => limit && count === 21 && sizes === "one").name];
+  const ours = "pseudoObservation";
+  const rows = [
+    ["N q calls of `Math.exp`", "Node", screen.microseconds / screen.ratio, screen.microseconds],
+    ["Algorithm 1 in Rust", "native", natively("algorithm1"), natively(ours)],
+    ["original bridging in Rust", "native", natively("bridging"), natively(ours)],
+    ["original bridging, in wasm", "Node", inNode("bridging"), inNode(ours)],
+    ["`kalman-filter`, a step for each destination", "Node", node.kalmanFilter.microseconds, node.kalmanFilter.ours],
+    ["ForesightJS, a pointer event", "Chromium", chromium.foresight.microseconds, chromium.foresight.ours],
+  ];
+  if (numpy) rows.splice(1, 0, ["Algorithm 1 in numpy, beside native", "Python", numpy.microseconds, natively(ours)]);
+  table(
+    ["", "where", "theirs, µs", "ours, µs", "times"],
+    rows.map(([name, where, theirs, own]) => [name, where, digits(theirs), digits(own), digits(theirs / own)]),
+  );
+  if (numpy) {
+    const times = numpy.microseconds / natively(ours);
+    const same = `its probabilities are ours to ${numpy.difference.toExponential(0)}`;
+    console.log(`Against numpy at least 500 times is wanted: ${met(times >= 500)}; ${same}.\n`);
+  } else {
+    console.log("Algorithm 1 in numpy is missing: pip install numpy, or set PYTHON to a Python that has it.\n");
+  }
+}
+
+function showMemory({ weights, growth }) {
+  console.log("Memory in wasm, in bytes:\n");
+  const methods = Object.keys(weights);
+  const bytes = (x) => count(Math.round(x));
+  const row = (name, of, limit) => {
+    const budget = limit ? `${count(limit)}: ${methods.map((method) => met(of(method) <= limit)).join(", ")}` : "";
+    return [name, ...methods.map((method) => bytes(of(method))), budget];
+  };
+  const { observations } = growth[methods[0]];
+  table(
+    ["", ...methods, "at most"],
+    [
+      row("a predictor of 21", (method) => weights[method].predictor, 16_000),
+      row("a clone of it", (method) => weights[method].clone),
+      row("one more destination", (method) => weights[method].destination, 64),
+      row(`growth over ${count(observations)} observations`, (method) => growth[method].grown),
+    ],
+  );
+}
