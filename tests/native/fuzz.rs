@@ -208,11 +208,7 @@ impl Draw {
     }
 }
 
-/// How far positions may be for the pointing model's covariances to be told from rounding, in px.
-const SCREENS: f64 = 1e6;
-
 fn sound(predictor: &mut Predictor) {
-    let pointing = matches!(predictor.scenario().engine, whither::scenario::Engine::Pointing(_));
     let none = predictor.none();
     let probabilities = predictor.probabilities();
     assert!((0.0..=1.0).contains(&none), "none {none}");
@@ -223,8 +219,7 @@ fn sound(predictor: &mut Predictor) {
     let state = |what: &str, gaussian: Option<Gaussian>| {
         if let Some(Gaussian { mean, covariance }) = gaussian {
             assert!(mean.iter().all(|x| x.is_finite()), "{what} {mean}");
-            let near = !pointing || mean.amax() < SCREENS;
-            let fine = |x: &f64| x.is_finite() && (*x >= 0.0 || !near);
+            let fine = |x: &f64| x.is_finite() && *x >= 0.0;
             assert!(covariance.diagonal().iter().all(fine), "{what} {covariance}");
         }
     };

@@ -21,11 +21,7 @@ pub struct Axis {
     pub covariance: [f64; 3],
     /// Position and velocity at the first observation, smoothed.
     pub first: [f64; 2],
-    /// Their covariance, in the same order as `covariance`.
-    pub first_covariance: [f64; 3],
-    /// Covariance of the first state (rows) with the state now (columns), row by row.
-    pub tie: [f64; 4],
-    /// A root of all of them, lower triangular: the first state's rows, then those of the state now.
+    /// A root of the covariance of both, lower triangular: the first state's rows, then those of the state now.
     root: [[f64; 4]; 4],
 }
 
@@ -40,18 +36,21 @@ impl Axis {
     }
 
     fn of(root: [[f64; 4]; 4], first: [f64; 2], [position, velocity]: [f64; 2]) -> Self {
-        let (covariance, tie) = ([0.0; 3], [0.0; 4]);
-        let mut axis = Self { position, velocity, covariance, first, first_covariance: covariance, tie, root };
+        let mut axis = Self { position, velocity, covariance: [0.0; 3], first, root };
         axis.square();
         axis
     }
 
-    /// All covariances, from the root.
+    /// A root of the covariance of position and velocity at the first observation and now, lower triangular.
+    #[must_use]
+    pub const fn root(&self) -> &[[f64; 4]; 4] {
+        &self.root
+    }
+
+    /// The covariance of the state now, from the root.
     fn square(&mut self) {
         let entry = |i: usize, j: usize| (0..=i.min(j)).map(|q| self.root[i][q] * self.root[j][q]).sum::<f64>();
         self.covariance = [entry(2, 2), entry(2, 3), entry(3, 3)];
-        self.first_covariance = [entry(0, 0), entry(0, 1), entry(1, 1)];
-        self.tie = [entry(0, 2), entry(0, 3), entry(1, 2), entry(1, 3)];
     }
 
     fn predict(&mut self, step: f64, noise: f64) {

@@ -113,14 +113,6 @@ impl Nodes {
             Quadratic { quadratic: [-0.5 * xx, -xy, -0.5 * yy, -xz, -yz, -0.5 * zz], linear: pull, constant }
         }));
     }
-
-    /// The covariance of the endpoint under one pair, of an endpoint covariance `own`.
-    #[must_use]
-    pub fn covariance(&self, pair: &Pair, own: &DMatrix<f64>) -> Symmetric {
-        let mut covariance = pair.covariance;
-        covariance.iter_mut().zip(symmetric(own, self.dimensions)).for_each(|(to, add)| *to += add);
-        covariance
-    }
 }
 
 impl Quadratic {

@@ -2,11 +2,12 @@
 //!
 //! For each destination and pair the filter's state is predicted to the time wanted, at most to the arrival, conditioned on
 //! the endpoint (Liang (10)), and mixed with the weights `p(D_i, c, R_n | y_1:k)`; mean and covariance by moment matching.
+//! Roots of covariances all the way, so that no variance is a difference.
 
 use super::Shares;
-use crate::likelihood::pointing::endpoint::{Pair, inverse, spread, times};
-use crate::likelihood::pointing::{Pointing, Symmetric, Vector, minus, vector};
-use crate::math::gaussian::Gaussian;
+use crate::likelihood::pointing::endpoint::{Pair, spread};
+use crate::likelihood::pointing::{Pointing, Symmetric, minus, vector};
+use crate::math::gaussian::{Conditioning, Gaussian, condition_root, root, square, triangularise};
 use crate::model::destination::Destinations;
 use crate::posterior::state::Moments;
 use nalgebra::{DMatrix, DVector};
@@ -29,19 +30,25 @@ impl Pointing {
         let nodes = self.nodes();
         let views: Vec<View> = nodes.pairs.iter().map(view).collect();
         let mut moments = Moments::default();
+        let mut kind = None;
+        let mut conditioned = Vec::new();
         for &(i, share) in shares {
             let covariance = &destinations.kind(i).covariance;
+            if kind != Some(destinations.kind_of()[i]) {
+                kind = Some(destinations.kind_of()[i]);
+                conditioned.clear();
+                conditioned.extend(views.iter().map(|view| view.conditioned(covariance)));
+            }
             let weights = nodes.weights(destinations.center(i), covariance);
             let offset = minus(&vector(destinations.center(i)), &self.course().position());
-            for ((pair, view), weight) in nodes.pairs.iter().zip(&views).zip(weights) {
-                let weight = share * weight;
+            for (((pair, view), known), weight) in nodes.pairs.iter().zip(&views).zip(&conditioned).zip(weights) {
+                let (weight, Some((gain, covariance))) = (share * weight, known) else { continue };
                 if weight <= 0.0 {
                     continue;
                 }
-                let (precision, _) = inverse(&nodes.covariance(pair, covariance), d);
                 let error = minus(&offset, &self.course().velocity().map(|v| v * pair.time));
-                let shift = &view.mean + view.pull(&times(&precision, &error));
-                moments.add(weight, shift, &(&view.covariance - view.gained(&precision, d)));
+                let mean = &view.mean + gain * DVector::from_column_slice(&error[..d]);
+                moments.add(weight, mean, covariance);
             }
         }
         let mut mixture = moments.mixture?;
@@ -54,72 +61,82 @@ impl Pointing {
     /// The state `later` seconds on, which is not beyond the pair's time to go.
     fn ahead(&self, pair: &Pair, later: f64) -> View {
         let d = self.course().dimensions();
-        let rest = pair.time - later;
-        let velocity = self.course().velocity();
-        let noise = |factor: f64| matrix(&spread(&pair.noise, &velocity, factor), d);
-        let diagonal = |entry: fn(&[f64; 3], f64) -> f64| {
-            DMatrix::from_diagonal(&DVector::from_fn(d, |j, _| entry(&self.course().axes[j].covariance, later)))
-        };
-        let pp = diagonal(|[pp, pv, vv], h| pp + 2.0 * h * pv + h * h * vv) + noise(later.powi(3) / 3.0);
-        let pv = diagonal(|[_, pv, vv], h| pv + h * vv) + noise(later * later / 2.0);
-        let vv = diagonal(|[_, _, vv], _| *vv) + noise(later);
-        let mean = DVector::from_fn(2 * d, |j, _| if j < d { velocity[j] * later } else { velocity[j - d] });
-        View::new(mean, &pp, &pv, &vv, &(&pp + &pv * rest), &(&pv + &vv * rest))
+        let (velocity, rest) = (self.course().velocity(), pair.time - later);
+        let now = self.root();
+        let (mut positions, speeds) = (now.rows(2 * d, d).into_owned(), now.rows(3 * d, d));
+        positions += speeds * later;
+        // beside the state now, the noise until then: the integral of white noise
+        let noise = root(&self.spread(pair, later));
+        let mut ahead = DMatrix::zeros(2 * d, 6 * d);
+        ahead.view_mut((0, 0), (d, 4 * d)).copy_from(&positions);
+        ahead.view_mut((d, 0), (d, 4 * d)).copy_from(&speeds);
+        ahead.view_mut((0, 4 * d), (d, d)).copy_from(&(&noise * (later / 3f64.sqrt())));
+        ahead.view_mut((d, 4 * d), (d, d)).copy_from(&(&noise * 0.75f64.sqrt()));
+        ahead.view_mut((d, 5 * d), (d, d)).copy_from(&(noise * 0.5));
+        View {
+            mean: DVector::from_fn(2 * d, |j, _| if j < d { velocity[j] * later } else { velocity[j - d] }),
+            root: triangularise(ahead),
+            endpoint: onward(d, 2 * d, rest),
+            noise: self.spread(pair, rest.powi(3) / 3.0),
+        }
     }
 
-    /// The smoothed state at the first observation.
+    /// The smoothed state at the first observation, and below it the state now.
     fn at_start(&self, pair: &Pair) -> View {
         let d = self.course().dimensions();
-        let axes = &self.course().axes;
-        let diagonal = |entry: &dyn Fn(usize) -> f64| DMatrix::from_diagonal(&DVector::from_fn(d, |j, _| entry(j)));
-        let covariance = |k: usize| diagonal(&|j| axes[j].first_covariance[k]);
-        let tie = |row: usize| diagonal(&|j| axes[j].tie[row] + pair.time * axes[j].tie[row + 1]);
-        let mean =
-            DVector::from_fn(
-                2 * d,
-                |j, _| {
-                    if j < d { axes[j].first[0] - axes[j].position } else { axes[j - d].first[1] }
-                },
-            );
-        View::new(mean, &covariance(0), &covariance(1), &covariance(2), &tie(0), &tie(2))
+        let axis = |j: usize| &self.course().axes[j];
+        let first = |j: usize| if j < d { axis(j).first[0] - axis(j).position } else { axis(j - d).first[1] };
+        View {
+            mean: DVector::from_fn(2 * d, |j, _| first(j)),
+            root: self.root(),
+            endpoint: onward(d, 4 * d, pair.time),
+            noise: self.spread(pair, pair.time.powi(3) / 3.0),
+        }
+    }
+
+    /// The filter's root: the rows are positions and velocities at the start and then now, axis by axis.
+    fn root(&self) -> DMatrix<f64> {
+        let d = self.course().dimensions();
+        let entry = |row: usize, column: usize| match (row % d, column % d) {
+            (axis, same) if axis == same => self.course().axes[axis].root()[row / d][column / d],
+            _ => 0.0,
+        };
+        DMatrix::from_fn(4 * d, 4 * d, entry)
+    }
+
+    /// The noise of the movement, times a factor.
+    fn spread(&self, pair: &Pair, factor: f64) -> DMatrix<f64> {
+        matrix(&spread(&pair.noise, &self.course().velocity(), factor), self.course().dimensions())
     }
 }
 
-/// A state, about the position now, and its covariance with the endpoint.
+/// A state, about the position now, and what an endpoint of no extent observes of it.
 struct View {
+    /// The mean of the state that is asked for.
     mean: DVector<f64>,
-    covariance: DMatrix<f64>,
-    with_endpoint: DMatrix<f64>,
+    /// The root of its covariance, and of what the endpoint is an observation of.
+    root: DMatrix<f64>,
+    endpoint: DMatrix<f64>,
+    noise: DMatrix<f64>,
 }
 
 impl View {
-    fn new(
-        mean: DVector<f64>,
-        pp: &DMatrix<f64>,
-        pv: &DMatrix<f64>,
-        vv: &DMatrix<f64>,
-        position_with_endpoint: &DMatrix<f64>,
-        velocity_with_endpoint: &DMatrix<f64>,
-    ) -> Self {
-        let d = pp.nrows();
-        let mut covariance = DMatrix::zeros(2 * d, 2 * d);
-        covariance.view_mut((0, 0), (d, d)).copy_from(pp);
-        covariance.view_mut((0, d), (d, d)).copy_from(pv);
-        covariance.view_mut((d, 0), (d, d)).copy_from(&pv.transpose());
-        covariance.view_mut((d, d), (d, d)).copy_from(vv);
-        let mut with_endpoint = DMatrix::zeros(2 * d, d);
-        with_endpoint.view_mut((0, 0), (d, d)).copy_from(position_with_endpoint);
-        with_endpoint.view_mut((d, 0), (d, d)).copy_from(velocity_with_endpoint);
-        Self { mean, covariance, with_endpoint }
+    /// The gain and the covariance given the endpoint, whose own covariance is this; none where it is singular.
+    fn conditioned(&self, own: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+        let (d, size) = (self.noise.nrows(), self.mean.len());
+        let noise = &self.noise + own.view((0, 0), (d, d));
+        let Conditioning { gain, root, .. } = condition_root(&self.root, &self.endpoint, &noise)?;
+        Some((gain.rows(0, size).into_owned(), square(&root.rows(0, size).into_owned())))
     }
+}
 
-    fn pull(&self, by: &Vector) -> DVector<f64> {
-        &self.with_endpoint * DVector::from_column_slice(&by[..self.with_endpoint.ncols()])
-    }
-
-    fn gained(&self, precision: &Symmetric, dimensions: usize) -> DMatrix<f64> {
-        &self.with_endpoint * matrix(precision, dimensions) * self.with_endpoint.transpose()
-    }
+/// `[0, I, rest I]`: the position after some more time, from a state whose last components are position and velocity.
+fn onward(dimensions: usize, size: usize, rest: f64) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(dimensions, size);
+    let start = size - 2 * dimensions;
+    matrix.view_mut((0, start), (dimensions, dimensions)).fill_with_identity();
+    matrix.view_mut((0, start + dimensions), (dimensions, dimensions)).fill_diagonal(rest);
+    matrix
 }
 
 fn matrix(symmetric: &Symmetric, dimensions: usize) -> DMatrix<f64> {
