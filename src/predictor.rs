@@ -249,7 +249,7 @@ impl Predictor {
     pub fn log_likelihoods(&mut self) -> &[f64] {
         self.refresh();
         if let Some(track) = &mut self.track {
-            track.log_likelihoods(&mut self.posterior);
+            track.log_likelihoods(&mut self.posterior, &self.destinations);
         }
         &self.posterior.log_likelihoods
     }

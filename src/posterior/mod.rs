@@ -126,14 +126,19 @@ impl Posterior {
         terms.iter().map(|term| (term - total).exp()).collect()
     }
 
+    /// Whether what "none" leaves of the probabilities is enough to tell the destinations apart; else the log likelihoods do.
+    #[must_use]
+    pub fn tells_destinations_apart(&self) -> bool {
+        self.probabilities.iter().sum::<f64>() > SMALLEST_SUM
+    }
+
     /// The destinations with their shares of what is not none, or one of them alone.
     #[must_use]
     pub fn shares(&self, destinations: &Destinations, only: Option<usize>) -> Vec<(usize, f64)> {
         if let Some(one) = only {
             return vec![(one, 1.0)];
         }
-        let whole = self.probabilities.iter().sum::<f64>() > SMALLEST_SUM;
-        let beside_none: Vec<f64> = if whole {
+        let beside_none: Vec<f64> = if self.tells_destinations_apart() {
             self.probabilities.clone()
         } else {
             let weighed = self.log_likelihoods.iter().zip(destinations.priors()).map(|(l, prior)| l + prior.ln());

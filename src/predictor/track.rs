@@ -175,9 +175,13 @@ impl Track {
     }
 
     /// Brings the log likelihoods up to date too.
-    pub(super) fn log_likelihoods(&mut self, posterior: &mut Posterior) {
-        if let Followed::Telescoped { now, before, .. } = &mut self.followed {
-            before.as_deref_mut().unwrap_or(now).log_likelihoods(&mut posterior.log_likelihoods);
+    pub(super) fn log_likelihoods(&mut self, posterior: &mut Posterior, destinations: &Destinations) {
+        match &mut self.followed {
+            Followed::Papers { .. } => {}
+            Followed::Telescoped { now, before, .. } => {
+                before.as_deref_mut().unwrap_or(now).log_likelihoods(&mut posterior.log_likelihoods);
+            }
+            Followed::Pointing(pointing) => pointing.log_likelihoods(destinations, &mut posterior.log_likelihoods),
         }
     }
 
@@ -213,7 +217,7 @@ impl Track {
         only: Option<usize>,
     ) -> Option<Arrival> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return Some(pointing.arrival(destinations, &posterior.shares(destinations, only)));
+            return Some(pointing.arrival(destinations, &shares(pointing, posterior, destinations, only)));
         }
         let (_, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.arrival(believed, &posterior.shares(destinations, only))
@@ -236,7 +240,8 @@ impl Track {
             return None;
         }
         if let Followed::Pointing(pointing) = &self.followed
-            && let Some([mean, low, high]) = pointing.entry_time(destinations, &posterior.shares(destinations, None))
+            && let Some([mean, low, high]) =
+                pointing.entry_time(destinations, &shares(pointing, posterior, destinations, None))
         {
             return Some(Remaining { mean, low, high });
         }
@@ -258,7 +263,7 @@ impl Track {
         only: Option<usize>,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return pointing.state(destinations, &posterior.shares(destinations, only), later);
+            return pointing.state(destinations, &shares(pointing, posterior, destinations, only), later);
         }
         let (movement, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.state(believed, movement, destinations, &posterior.shares(destinations, only), later)
@@ -272,7 +277,7 @@ impl Track {
         destinations: &Destinations,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return pointing.initial_state(destinations, &posterior.shares(destinations, None));
+            return pointing.initial_state(destinations, &shares(pointing, posterior, destinations, None));
         }
         let (_, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.initial_state(believed, &posterior.shares(destinations, None))
@@ -387,6 +392,19 @@ impl Track {
             followed,
         })
     }
+}
+
+/// [`Posterior::shares`], which asks for the log likelihoods where "none" has left no digits.
+fn shares(
+    pointing: &Pointing,
+    posterior: &mut Posterior,
+    destinations: &Destinations,
+    only: Option<usize>,
+) -> Vec<(usize, f64)> {
+    if !posterior.tells_destinations_apart() {
+        pointing.log_likelihoods(destinations, &mut posterior.log_likelihoods);
+    }
+    posterior.shares(destinations, only)
 }
 
 /// What [`Followed::Telescoped`] follows, as the dense engines have it.

@@ -1,7 +1,9 @@
 //! The pointing model: golden cases of an independent reference, three dimensions, and the life of a movement.
 
+use crate::problem::Draw;
 use crate::support::{golden, numbers, predictor, relative, value};
 use serde_json::{Value as Json, json};
+use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Code, Predictor, Scenario};
 
 const CASES: [&str; 5] =
@@ -286,4 +288,75 @@ fn a_share_of_none_stays_at_its_prior() {
         let scaled: Vec<f64> = plain.probabilities().iter().map(|p| scale * p).collect();
         assert!(relative(kept.probabilities(), &scaled) < 1e-9);
     }
+}
+
+/// The probabilities that the log likelihoods, one destination at a time, lead to.
+fn from_log_likelihoods(predictor: &mut Predictor, scenario: &Json, start: &[f64]) -> Vec<f64> {
+    let pointing = &scenario["pointing"];
+    let (near, uniform) = (pointing["near"].as_f64().unwrap(), pointing["uniform"].as_f64().unwrap());
+    let log_likelihoods = predictor.log_likelihoods().to_vec();
+    let destinations = scenario["destinations"].as_array().unwrap();
+    let log_prior = |destination: &Json| {
+        let (center, size) = (numbers(&destination["center"]), numbers(&destination["size"]));
+        let each = center.iter().zip(start).zip(&size);
+        let volume: f64 = size.iter().product();
+        let square: f64 = each.map(|((c, s), size)| ((c - s) / size).powi(2)).sum();
+        let square = square + volume.powf(-2.0 / center.len() as f64);
+        (square / (square + near * near)).ln() + destination["prior"].as_f64().unwrap().ln()
+    };
+    let logs: Vec<f64> = log_likelihoods.iter().zip(destinations).map(|(l, d)| l + log_prior(d)).collect();
+    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = logs.iter().map(|l| (l - top).exp()).sum();
+    let none = predictor.none();
+    logs.iter()
+        .map(|l| (1.0 - none) * ((1.0 - uniform) * (l - top).exp() / sum + uniform / logs.len() as f64))
+        .collect()
+}
+
+#[test]
+fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
+    let base = serde_json::to_value(
+        pointer_scenario(
+            &[PointerTarget { id: "a".to_owned(), x: 0.0, y: 0.0, width: 50.0, height: 50.0 }],
+            PointerOptions::default(),
+        )
+        .unwrap()
+        .to_value(),
+    )
+    .unwrap();
+    let mut worst = 0.0f64;
+    for seed in 0..60u32 {
+        let mut draw = Draw(u64::from(seed).wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
+        let d = 1 + seed as usize % 3;
+        let (count, sizes) = (3 + seed as usize, [1, 3, 1000][seed as usize / 3 % 3]);
+        // some worlds are much wider than a movement reaches
+        let world = if seed % 5 == 0 { 1e5 } else { 900.0 };
+        let kinds: Vec<Vec<f64>> = (0..sizes.min(count)).map(|_| draw.list(d, 15.0, 90.0)).collect();
+        let mut scenario = base.clone();
+        scenario["motion"]["dimensions"] = json!(d);
+        scenario["none"] = json!(if seed % 2 == 0 { 0.0 } else { 0.2 });
+        let destination = |i: usize, draw: &mut Draw| {
+            let center = draw.list(d, 0.0, world);
+            json!({ "id": format!("d{i}"), "center": center, "size": kinds[i % kinds.len()], "prior": draw.within(0.2, 2.0) })
+        };
+        let mut destinations: Vec<Json> = (0..count).map(|i| destination(i, &mut draw)).collect();
+        // one where the movement begins, one straight behind it
+        let (start, velocity) = (draw.list(d, 100.0, 800.0), draw.list(d, -900.0, 900.0));
+        destinations[0]["center"] = json!(start);
+        destinations[1]["center"] = json!(start.iter().zip(&velocity).map(|(x, v)| x - v).collect::<Vec<_>>());
+        scenario["destinations"] = json!(destinations);
+        let mut predictor = predictor(&scenario);
+        for k in 0..25 {
+            let time = 0.016 * f64::from(k);
+            let position: Vec<f64> = start.iter().zip(&velocity).map(|(x, v)| x + v * time).collect();
+            predictor.observe(time, &position).unwrap();
+            let expected = from_log_likelihoods(&mut predictor, &scenario, &start);
+            let found = predictor.probabilities();
+            for (found, expected) in found.iter().zip(&expected) {
+                worst = worst.max((found - expected).abs());
+                assert!((found - expected).abs() < 1e-12, "seed {seed} k {k}: {found:e} {expected:e}");
+            }
+        }
+    }
+    assert!(worst > 0.0, "compared with itself");
 }

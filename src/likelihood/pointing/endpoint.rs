@@ -10,9 +10,10 @@
 
 use super::course::Course;
 use super::parameters::Parameters;
-use super::{Symmetric, Vector, minus, vector};
+use super::{Symmetric, Vector, dot, minus, vector};
 use crate::math::gaussian::LN_2_PI;
-use crate::model::destination::Destinations;
+use crate::math::log_sum_exp::log_sum_exp;
+use crate::math::mixture::{Density, Ellipsoid, HALF_LOG2_E};
 use nalgebra::DMatrix;
 
 /// One (scale, time to go).
@@ -22,7 +23,7 @@ pub struct Pair {
     pub time: f64,
     /// Spectral density of the noise across the way, and what is added to it along `v v'`.
     pub noise: [f64; 2],
-    log_weight: f64,
+    weight: f64,
     mean: Vector,
     covariance: Symmetric,
 }
@@ -32,98 +33,123 @@ pub struct Pair {
 pub struct Nodes {
     dimensions: usize,
     position: Vector,
+    times: Vec<f64>,
+    weights: Vec<f64>,
     /// The pairs, scale by scale.
     pub pairs: Vec<Pair>,
-}
-
-/// `quadratic . (xx, xy, yy, xz, yz, zz) + linear . (x, y, z) + constant`: the log density of a pair, weight included.
-#[derive(Clone, Copy, Debug)]
-struct Quadratic {
-    quadratic: Symmetric,
-    linear: Vector,
-    constant: f64,
 }
 
 impl Nodes {
     /// The pairs after the latest observation.
     #[must_use]
     pub fn new(parameters: &Parameters, course: &Course) -> Self {
+        let times = parameters.time_to_go.nodes();
+        let (weights, pairs) = (Vec::new(), Vec::with_capacity(parameters.scales.len() * times.len()));
+        let mut nodes = Self { dimensions: course.dimensions(), position: course.position(), times, weights, pairs };
+        nodes.refresh(parameters, course);
+        nodes
+    }
+
+    /// The pairs after one more observation.
+    pub fn refresh(&mut self, parameters: &Parameters, course: &Course) {
         let (velocity, speed) = (course.velocity(), course.speed());
-        let nodes = parameters.time_to_go.nodes();
-        let mut log_weights = Vec::with_capacity(nodes.len());
-        parameters.time_to_go.log_weights(&nodes, speed, &mut log_weights);
-        let log_scales = (parameters.scales.len() as f64).ln();
+        self.position = course.position();
+        parameters.time_to_go.weights(&self.times, speed, &mut self.weights);
+        let each = 1.0 / parameters.scales.len() as f64;
         let (along, across) = (parameters.along_noise.powi(2), parameters.across_noise.powi(2));
-        let mut pairs = Vec::with_capacity(parameters.scales.len() * nodes.len());
+        self.pairs.clear();
         for scale in &parameters.scales {
             let noise = [scale * scale + across * speed * speed, along - across];
-            pairs.extend(nodes.iter().zip(&log_weights).map(|(&time, log_weight)| {
-                let mut covariance = spread(&noise, &velocity, time.powi(3) / 3.0);
+            self.pairs.extend(self.times.iter().zip(&self.weights).map(|(&time, weight)| {
+                let mut covariance = spread(&noise, &velocity, time * time * time / 3.0);
                 for (axis, place) in course.axes.iter().zip([0, 2, 5]) {
                     let [pp, pv, vv] = axis.covariance;
                     covariance[place] += pp + 2.0 * time * pv + time * time * vv;
                 }
-                let mean = velocity.map(|v| v * time);
-                Pair { time, noise, log_weight: log_weight - log_scales, mean, covariance }
+                Pair { time, noise, weight: weight * each, mean: velocity.map(|v| v * time), covariance }
             }));
         }
-        Self { dimensions: course.dimensions(), position: course.position(), pairs }
     }
 
-    /// `ln N_i` for every destination.
-    pub fn log_densities(&self, destinations: &Destinations, into: &mut Vec<f64>) {
-        into.clear();
-        let mut kind = u32::MAX;
-        let mut quadratics = Vec::new();
-        let mut terms = Vec::with_capacity(self.pairs.len());
-        for (i, &its_kind) in destinations.kind_of().iter().enumerate() {
-            if its_kind != kind {
-                kind = its_kind;
-                self.quadratics(&destinations.kind(i).covariance, &mut quadratics);
-            }
-            let offset = minus(&vector(destinations.center(i)), &self.position);
-            terms.clear();
-            terms.extend(quadratics.iter().map(|quadratic| quadratic.at(&offset)));
-            into.push(crate::math::log_sum_exp::log_sum_exp(&terms));
-        }
+    /// Dimensions.
+    #[must_use]
+    pub const fn dimensions(&self) -> usize {
+        self.dimensions
     }
 
-    /// `p(c, R_n | D_i)`, in the order of the pairs.
+    /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
+    #[must_use]
+    pub fn log_density(&self, center: &[f64], endpoint: &DMatrix<f64>) -> f64 {
+        log_sum_exp(&self.log_terms(center, endpoint))
+    }
+
+    /// `p(c, R_n | D_i)`, in the order of the pairs; nothing where `N_i` is no number.
     #[must_use]
     pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
-        let mut quadratics = Vec::new();
-        self.quadratics(endpoint, &mut quadratics);
-        let offset = minus(&vector(center), &self.position);
-        let terms: Vec<f64> = quadratics.iter().map(|quadratic| quadratic.at(&offset)).collect();
-        let total = crate::math::log_sum_exp::log_sum_exp(&terms);
-        terms.iter().map(|term| (term - total).exp()).collect()
+        let mut terms = self.log_terms(center, endpoint);
+        let total = log_sum_exp(&terms);
+        terms.iter_mut().for_each(|term| *term = if total.is_finite() { (*term - total).exp() } else { 0.0 });
+        terms
     }
 
-    fn quadratics(&self, endpoint: &DMatrix<f64>, into: &mut Vec<Quadratic>) {
+    /// The logarithms of the pairs' densities, weights included.
+    fn log_terms(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
         let own = symmetric(endpoint, self.dimensions);
+        let offset = minus(&vector(center), &self.position);
+        let each = self.pairs.iter().map(|pair| {
+            let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
+            let error = minus(&offset, &pair.mean);
+            let square = dot(&error, &times(&precision, &error));
+            pair.weight.ln() - 0.5 * (square + determinant.ln() + self.dimensions as f64 * LN_2_PI)
+        });
+        each.collect()
+    }
+
+    /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
+    pub fn ellipsoids(&self, own: &Symmetric, into: &mut Vec<Ellipsoid>) {
+        let normaliser = normaliser(self.dimensions);
         into.clear();
         into.extend(self.pairs.iter().map(|pair| {
-            let mut covariance = pair.covariance;
-            covariance.iter_mut().zip(own).for_each(|(to, add)| *to += add);
-            let (precision, determinant) = inverse(&covariance, self.dimensions);
-            let pull = times(&precision, &pair.mean);
-            let constant = pair.log_weight
-                - 0.5 * (super::dot(&pull, &pair.mean) + determinant.ln() + self.dimensions as f64 * LN_2_PI);
-            let [xx, xy, yy, xz, yz, zz] = precision;
-            Quadratic { quadratic: [-0.5 * xx, -xy, -0.5 * yy, -xz, -yz, -0.5 * zz], linear: pull, constant }
+            let (precision, determinant) = inverse(&sum(&pair.covariance, own), self.dimensions);
+            let [xx, xy, yy, xz, yz, zz] = precision.map(|entry| -HALF_LOG2_E * entry);
+            Ellipsoid {
+                center: self.end(pair),
+                curvature: [[xx, xy + xy, xz + xz], [0.0, yy, yz + yz], [0.0, 0.0, zz]],
+                slope: [0.0; 3],
+                constant: 0.0,
+                factor: pair.weight * normaliser / determinant.sqrt(),
+            }
         }));
+    }
+
+    /// The pairs as terms of a sum, for destinations whose endpoints have each its own variances.
+    pub fn densities(&self, into: &mut Vec<Density>) {
+        let normaliser = normaliser(self.dimensions);
+        into.clear();
+        into.extend(self.pairs.iter().map(|pair| {
+            let [xx, xy, yy, xz, yz, zz] = pair.covariance;
+            Density {
+                mean: self.end(pair),
+                variance: [xx, yy, zz],
+                covariance: [xy, xz, yz],
+                factor: pair.weight * normaliser,
+            }
+        }));
+    }
+
+    /// Where the movement would end.
+    fn end(&self, pair: &Pair) -> Vector {
+        std::array::from_fn(|k| self.position[k] + pair.mean[k])
     }
 }
 
-impl Quadratic {
-    fn at(&self, offset: &Vector) -> f64 {
-        let [x, y, z] = *offset;
-        let [xx, xy, yy, xz, yz, zz] = self.quadratic;
-        self.constant
-            + x * (xx * x + xy * y + xz * z + self.linear[0])
-            + y * (yy * y + yz * z + self.linear[1])
-            + z * (zz * z + self.linear[2])
-    }
+/// `(2 pi)^(-d/2)`.
+fn normaliser(dimensions: usize) -> f64 {
+    (-0.5 * dimensions as f64 * LN_2_PI).exp()
+}
+
+fn sum(a: &Symmetric, b: &Symmetric) -> Symmetric {
+    std::array::from_fn(|k| a[k] + b[k])
 }
 
 /// `(noise[0] I + noise[1] v v') factor`: the noise of a movement, wider along the velocity than across it.

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::parameters::{Direction, Start};
-use super::{Vector, dot, minus};
+use super::{Vector, cross, dot, minus};
 use crate::model::destination::Kind;
 use nalgebra::DMatrix;
 
@@ -50,29 +50,57 @@ impl<'a> DirectionNow<'a> {
         Self { direction, dimensions: course.dimensions(), way, weight: direction.power * weight }
     }
 
+    /// How much it counts.
+    #[must_use]
+    pub const fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    /// The way covered, one unit of length long; zero where there is none.
+    #[must_use]
+    pub fn unit(&self) -> Vector {
+        let net = dot(&self.way, &self.way).sqrt();
+        self.way.map(|x| if net > 0.0 { x / net } else { 0.0 })
+    }
+
+    /// The square of the angle beyond which nothing is lost any more.
+    #[must_use]
+    pub fn wide_squared(&self) -> f64 {
+        self.direction.wide.powi(2)
+    }
+
+    /// The square of the angle below which nothing is gained any more.
+    #[must_use]
+    pub fn core_squared(&self) -> f64 {
+        self.direction.core.powi(2)
+    }
+
     /// `power w [2 ln(1 + theta^2/(wide^2 + z)) - ln(1 + theta^2/(core^2 + z))]`, with `theta` the angle at the start between
     /// the way covered and the destination at `offset`, and `z` the variance of the target's own direction.
     #[must_use]
     pub fn log_evidence(&self, offset: &Vector, covariance: &DMatrix<f64>) -> f64 {
-        let (along, square) = (dot(&self.way, offset), dot(offset, offset));
-        let across = (dot(&self.way, &self.way) * square - along * along).max(0.0).sqrt();
-        let angle = across.atan2(along).powi(2);
-        let size = self.angular_variance(offset, square, covariance);
-        let term = |width: f64| (angle / (width * width + size)).ln_1p();
-        self.weight * (2.0 * term(self.direction.wide) - term(self.direction.core))
+        // a zero that is not negative: what is at the start itself lies in no direction
+        let (along, across) = (dot(&self.way, offset) + 0.0, cross(&self.way, offset));
+        let angle = dot(&across, &across).sqrt().atan2(along).powi(2);
+        let size = angular_variance(offset, covariance, self.dimensions);
+        let term = |square: f64| (angle / (square + size)).ln_1p();
+        self.weight * (2.0 * term(self.wide_squared()) - term(self.core_squared()))
     }
+}
 
-    fn angular_variance(&self, offset: &Vector, square: f64, covariance: &DMatrix<f64>) -> f64 {
-        if self.dimensions == 1 {
-            return 0.0;
-        }
-        let (mut trace, mut towards) = (0.0, 0.0);
-        for j in 0..self.dimensions {
-            trace += covariance[(j, j)];
-            for k in 0..self.dimensions {
-                towards += offset[j] * covariance[(j, k)] * offset[k];
-            }
-        }
-        (trace * square - towards) / (self.dimensions as f64 - 1.0) / (square + 1.0).powi(2)
+/// `z`, the variance of the direction in which a target at `offset` is seen.
+#[must_use]
+pub fn angular_variance(offset: &Vector, covariance: &DMatrix<f64>, dimensions: usize) -> f64 {
+    if dimensions == 1 {
+        return 0.0;
     }
+    let (mut trace, mut towards) = (0.0, 0.0);
+    for j in 0..dimensions {
+        trace += covariance[(j, j)];
+        for k in 0..dimensions {
+            towards += offset[j] * covariance[(j, k)] * offset[k];
+        }
+    }
+    let square = dot(offset, offset);
+    (trace * square - towards) / (dimensions as f64 - 1.0) / (square + 1.0).powi(2)
 }

@@ -12,6 +12,9 @@
 //! | power | the first samples say less than the model believes, the later ones more | [`parameters::Power`] |
 //! | near | a movement seldom ends where it began | `evidence` |
 //!
+//! `targets` and `weigh` do it for all destinations at the speed of the machine; the other parts say it one destination at
+//! a time, for the log likelihoods and whatever else is asked.
+//!
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
 
 pub(crate) mod course;
@@ -19,12 +22,18 @@ pub(crate) mod endpoint;
 pub mod entry_time;
 pub(crate) mod evidence;
 pub mod parameters;
+mod targets;
+mod weigh;
 
+use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
 use course::Course;
 use endpoint::Nodes;
+use evidence::{DirectionNow, log_near, log_start};
 use parameters::Parameters;
 use std::sync::Arc;
+use targets::Targets;
+use weigh::{Now, Work};
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
 ///
@@ -42,6 +51,12 @@ pub(crate) type Symmetric = [f64; 6];
 #[must_use]
 pub fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The cross product: as long as both are, times the sine of the angle between them.
+#[must_use]
+pub fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The difference.
@@ -63,11 +78,9 @@ pub fn vector(components: &[f64]) -> Vector {
 pub(crate) struct Pointing {
     parameters: Arc<Parameters>,
     course: Course,
-    /// `ln S_i` and the logarithm of the factor `near`, for each destination.
-    log_start: Vec<f64>,
-    log_near: Vec<f64>,
-    /// `ln N_i`, kept to save its memory.
-    log_endpoint: Vec<f64>,
+    nodes: Nodes,
+    targets: Targets,
+    work: Work,
 }
 
 impl Pointing {
@@ -86,8 +99,8 @@ impl Pointing {
     /// Goes on from a course that was saved.
     #[must_use]
     pub fn resume(parameters: Arc<Parameters>, destinations: &Destinations, course: Course) -> Self {
-        let mut pointing =
-            Self { parameters, course, log_start: Vec::new(), log_near: Vec::new(), log_endpoint: Vec::new() };
+        let (nodes, targets) = (Nodes::new(&parameters, &course), Targets::default());
+        let mut pointing = Self { parameters, course, nodes, targets, work: Work::default() };
         pointing.replan(destinations);
         pointing
     }
@@ -95,6 +108,7 @@ impl Pointing {
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
     pub fn advance(&mut self, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
         self.course.advance(&self.parameters, elapsed, position, variances);
+        self.nodes.refresh(&self.parameters, &self.course);
     }
 
     /// The movement so far.
@@ -105,33 +119,52 @@ impl Pointing {
 
     /// Other destinations, in mid-movement too.
     pub fn replan(&mut self, destinations: &Destinations) {
-        let d = self.course.dimensions();
-        let log_volume = self.parameters.start.log_volume(d);
-        self.log_start.clear();
-        self.log_near.clear();
-        for i in 0..destinations.len() {
-            let offset = minus(&vector(destinations.center(i)), &self.course.start);
-            self.log_start.push(evidence::log_start(&self.parameters.start, &offset) - log_volume);
-            self.log_near.push(evidence::log_near(self.parameters.near, &offset, destinations.kind(i), d));
+        self.targets.fill(destinations, &self.parameters, &self.course.start);
+    }
+
+    /// Writes the probabilities among the destinations, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
+    /// logarithm of that sum; none where nothing is known of any of them.
+    pub fn probabilities(&mut self, destinations: &Destinations, into: &mut Vec<f64>) -> Option<f64> {
+        if self.course.observations > 1 {
+            let now = Now {
+                nodes: &self.nodes,
+                direction: &DirectionNow::new(&self.parameters.direction, &self.course),
+                start: &self.course.start,
+                power: self.parameters.power.after(self.course.elapsed),
+            };
+            if let Some(log_sum) = self.work.probabilities(&self.targets, &now, into) {
+                return Some(log_sum);
+            }
         }
+        self.log_likelihoods(destinations, into);
+        let total: f64 = destinations.priors().iter().sum();
+        for (i, (value, prior)) in into.iter_mut().zip(destinations.priors()).enumerate() {
+            let offset = minus(&vector(destinations.center(i)), &self.course.start);
+            let near = log_near(self.parameters.near, &offset, destinations.kind(i), self.course.dimensions());
+            *value += near + (prior / total).ln();
+        }
+        let log_sum = log_sum_exp(into);
+        into.iter_mut().for_each(|value| *value = (*value - log_sum).exp());
+        log_sum.is_finite().then_some(log_sum)
     }
 
     /// `g (ln N_i - ln S_i) + B_i` for every destination; zero after the first observation alone.
-    pub fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
-        let parameters = &*self.parameters;
+    pub fn log_likelihoods(&self, destinations: &Destinations, into: &mut Vec<f64>) {
+        let (parameters, d) = (&*self.parameters, self.course.dimensions());
         into.clear();
         if self.course.observations < 2 {
             into.resize(destinations.len(), 0.0);
             return;
         }
         let power = parameters.power.after(self.course.elapsed);
-        self.nodes().log_densities(destinations, &mut self.log_endpoint);
-        let direction = evidence::DirectionNow::new(&parameters.direction, &self.course);
-        let each = self.log_endpoint.iter().zip(&self.log_start).enumerate();
-        into.extend(each.map(|(i, (endpoint, start))| {
-            let offset = minus(&vector(destinations.center(i)), &self.course.start);
-            let seen = direction.log_evidence(&offset, &destinations.kind(i).covariance);
-            let whole = power * (endpoint - start) + seen;
+        let log_volume = parameters.start.log_volume(d);
+        let direction = DirectionNow::new(&parameters.direction, &self.course);
+        into.extend((0..destinations.len()).map(|i| {
+            let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
+            let offset = minus(&vector(center), &self.course.start);
+            let start = log_start(&parameters.start, &offset) - log_volume;
+            let seen = direction.log_evidence(&offset, covariance);
+            let whole = power * (self.nodes.log_density(center, covariance) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
             if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
         }));
@@ -147,16 +180,10 @@ impl Pointing {
         self.parameters.none_offset + self.parameters.none_gain * (power.after(self.course.elapsed) - power.from)
     }
 
-    /// `ln (m^2 / (m^2 + near^2))` for every destination: part of the prior, once the start is known.
-    #[must_use]
-    pub fn log_near(&self) -> &[f64] {
-        &self.log_near
-    }
-
     /// The pairs of noise scale and time to go after the latest observation.
     #[must_use]
-    pub fn nodes(&self) -> Nodes {
-        Nodes::new(&self.parameters, &self.course)
+    pub const fn nodes(&self) -> &Nodes {
+        &self.nodes
     }
 
     /// The constants.

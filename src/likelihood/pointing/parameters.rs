@@ -309,13 +309,15 @@ impl TimeToGo {
         (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
     }
 
-    /// The logarithms of the nodes' weights at a speed, normalised.
-    pub fn log_weights(&self, nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
+    /// The nodes' weights at a speed; they sum to one.
+    pub fn weights(&self, nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
         let middle = self.median.ln() + self.speed_exponent * ((speed + 50.0) / 1000.0).ln();
         into.clear();
         into.extend(nodes.iter().map(|node| -0.5 * ((node.ln() - middle) / self.spread).powi(2)));
-        let total = crate::math::log_sum_exp::log_sum_exp(into);
-        into.iter_mut().for_each(|weight| *weight -= total);
+        let top = into.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        into.iter_mut().for_each(|weight| *weight = (*weight - top).exp());
+        let total: f64 = into.iter().sum();
+        into.iter_mut().for_each(|weight| *weight /= total);
     }
 }
 

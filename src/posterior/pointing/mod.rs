@@ -5,23 +5,15 @@ pub mod state;
 use super::arrival_time::Arrival;
 use super::{Posterior, Shares};
 use crate::likelihood::pointing::Pointing;
-use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
 
 impl Posterior {
-    /// Multiplies likelihoods, priors and the factor `near`, normalises together with none of them, whose prior is `none`,
-    /// and spreads the even share over the destinations that are possible at all.
+    /// The probabilities among the destinations against none of them, whose prior is `none`, with the even share spread
+    /// over the destinations that are possible at all.
     pub(crate) fn update_pointing(&mut self, pointing: &mut Pointing, destinations: &Destinations, none: f64) {
-        pointing.log_likelihoods(destinations, &mut self.log_likelihoods);
-        let priors = destinations.priors();
-        let total: f64 = priors.iter().sum();
-        let each = self.log_likelihoods.iter().zip(pointing.log_near()).zip(priors);
-        self.probabilities.clear();
-        self.probabilities.extend(each.map(|((likelihood, near), prior)| likelihood + near + (prior / total).ln()));
-        let log_sum = log_sum_exp(&self.probabilities);
-        if !log_sum.is_finite() {
+        let Some(log_sum) = pointing.probabilities(destinations, &mut self.probabilities) else {
             return self.believe_prior(destinations, none);
-        }
+        };
         let (kept, uniform) = (pointing.parameters().none_share, pointing.parameters().uniform);
         self.none = match none {
             0.0 => 0.0,
@@ -30,10 +22,11 @@ impl Posterior {
                 (1.0 - kept) / (1.0 + (-log_odds).exp()) + kept * none
             }
         };
+        let priors = destinations.priors();
         let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
         for (value, prior) in self.probabilities.iter_mut().zip(priors) {
             let even = if *prior > 0.0 { uniform / possible as f64 } else { 0.0 };
-            *value = (1.0 - self.none) * ((1.0 - uniform) * (*value - log_sum).exp() + even);
+            *value = (1.0 - self.none) * ((1.0 - uniform) * *value + even);
         }
     }
 }

@@ -1,0 +1,83 @@
+//! The operations as plain loops.
+
+use super::{BIAS, Block, CENTRED, ONE, TWO_52, WIDTH};
+
+#[derive(Clone, Copy, Debug)]
+pub struct Vector(Block);
+
+impl Vector {
+    #[inline(always)]
+    pub const fn splat(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+
+    #[inline(always)]
+    pub const fn load(block: &Block) -> Self {
+        Self(*block)
+    }
+
+    #[inline(always)]
+    pub const fn store(self, block: &mut Block) {
+        *block = self.0;
+    }
+
+    #[inline(always)]
+    fn each(mut self, f: impl Fn(f64) -> f64) -> Self {
+        self.0.iter_mut().for_each(|x| *x = f(*x));
+        self
+    }
+
+    #[inline(always)]
+    fn both(mut self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        self.0.iter_mut().zip(other.0).for_each(|(x, y)| *x = f(*x, y));
+        self
+    }
+
+    #[inline(always)]
+    pub fn add(self, other: Self) -> Self {
+        self.both(other, |x, y| x + y)
+    }
+
+    #[inline(always)]
+    pub fn sub(self, other: Self) -> Self {
+        self.both(other, |x, y| x - y)
+    }
+
+    #[inline(always)]
+    pub fn mul(self, other: Self) -> Self {
+        self.both(other, |x, y| x * y)
+    }
+
+    #[inline(always)]
+    pub fn div(self, other: Self) -> Self {
+        self.both(other, |x, y| x / y)
+    }
+
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.each(f64::sqrt)
+    }
+
+    #[inline(always)]
+    pub fn at_least(self, least: Self) -> Self {
+        self.both(least, |x, least| if x > least { x } else { least })
+    }
+
+    #[inline(always)]
+    pub fn at_most(self, most: Self) -> Self {
+        self.both(most, |x, most| if most < x { most } else { x })
+    }
+
+    #[inline(always)]
+    pub fn add_to_exponent(self, whole: Self) -> Self {
+        self.both(whole, |x, whole| f64::from_bits(x.to_bits().wrapping_add(whole.to_bits() << 52)))
+    }
+
+    /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
+    #[inline(always)]
+    pub fn split(self) -> (Self, Self) {
+        let whole = |x: f64| (x.to_bits().wrapping_add(CENTRED)) >> 52;
+        let factor = self.each(|x| f64::from_bits(x.to_bits().wrapping_sub(whole(x) << 52).wrapping_add(ONE)));
+        (factor, self.each(|x| f64::from_bits(whole(x) | TWO_52) - BIAS))
+    }
+}

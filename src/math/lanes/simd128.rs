@@ -1,0 +1,101 @@
+//! The operations as instructions of WebAssembly, all of them safe functions.
+
+use super::{BIAS, Block, CENTRED, ONE, TWO_52};
+use core::arch::wasm32::{
+    f64x2, f64x2_add, f64x2_div, f64x2_extract_lane, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sqrt,
+    f64x2_sub, i64x2_add, i64x2_shl, i64x2_sub, u64x2_shr, u64x2_splat, v128, v128_or,
+};
+
+// no loops and no arrays of arrays: at the level for size they would stay in memory
+#[derive(Clone, Copy, Debug)]
+pub struct Vector(v128, v128, v128, v128);
+
+impl Vector {
+    #[inline(always)]
+    pub fn splat(x: f64) -> Self {
+        let both = f64x2_splat(x);
+        Self(both, both, both, both)
+    }
+
+    #[inline(always)]
+    pub fn load(block: &Block) -> Self {
+        let [a, b, c, d, e, f, g, h] = *block;
+        Self(f64x2(a, b), f64x2(c, d), f64x2(e, f), f64x2(g, h))
+    }
+
+    #[inline(always)]
+    pub fn store(self, block: &mut Block) {
+        let low = |v| f64x2_extract_lane::<0>(v);
+        let high = |v| f64x2_extract_lane::<1>(v);
+        *block = [
+            low(self.0),
+            high(self.0),
+            low(self.1),
+            high(self.1),
+            low(self.2),
+            high(self.2),
+            low(self.3),
+            high(self.3),
+        ];
+    }
+
+    #[inline(always)]
+    fn each(self, f: impl Fn(v128) -> v128) -> Self {
+        Self(f(self.0), f(self.1), f(self.2), f(self.3))
+    }
+
+    #[inline(always)]
+    fn both(self, other: Self, f: impl Fn(v128, v128) -> v128) -> Self {
+        Self(f(self.0, other.0), f(self.1, other.1), f(self.2, other.2), f(self.3, other.3))
+    }
+
+    #[inline(always)]
+    pub fn add(self, other: Self) -> Self {
+        self.both(other, |x, y| f64x2_add(x, y))
+    }
+
+    #[inline(always)]
+    pub fn sub(self, other: Self) -> Self {
+        self.both(other, |x, y| f64x2_sub(x, y))
+    }
+
+    #[inline(always)]
+    pub fn mul(self, other: Self) -> Self {
+        self.both(other, |x, y| f64x2_mul(x, y))
+    }
+
+    #[inline(always)]
+    pub fn div(self, other: Self) -> Self {
+        self.both(other, |x, y| f64x2_div(x, y))
+    }
+
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.each(|x| f64x2_sqrt(x))
+    }
+
+    #[inline(always)]
+    pub fn at_least(self, least: Self) -> Self {
+        // pmax(a, b) is `a < b ? b : a`
+        self.both(least, |x, least| f64x2_pmax(least, x))
+    }
+
+    #[inline(always)]
+    pub fn at_most(self, most: Self) -> Self {
+        // pmin(a, b) is `b < a ? b : a`
+        self.both(most, |x, most| f64x2_pmin(x, most))
+    }
+
+    #[inline(always)]
+    pub fn add_to_exponent(self, whole: Self) -> Self {
+        self.both(whole, |x, whole| i64x2_add(x, i64x2_shl(whole, 52)))
+    }
+
+    /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
+    #[inline(always)]
+    pub fn split(self) -> (Self, Self) {
+        let whole = |x| u64x2_shr(i64x2_add(x, u64x2_splat(CENTRED)), 52);
+        let factor = self.each(|x| i64x2_add(i64x2_sub(x, i64x2_shl(whole(x), 52)), u64x2_splat(ONE)));
+        (factor, self.each(|x| f64x2_sub(v128_or(whole(x), u64x2_splat(TWO_52)), f64x2_splat(BIAS))))
+    }
+}
