@@ -22,8 +22,8 @@ pub(crate) mod endpoint;
 pub mod entry_time;
 pub(crate) mod evidence;
 pub mod parameters;
-mod targets;
-mod weigh;
+pub(crate) mod targets;
+pub(crate) mod weigh;
 
 use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
