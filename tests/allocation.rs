@@ -6,6 +6,7 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use serde_json::{Value as Json, json};
+use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Predictor, Scenario};
 
 /// Targets spread over a screen, each of its own size where wanted.
@@ -24,6 +25,18 @@ fn pseudo_observation(count: u32, own_sizes: bool) -> Predictor {
         "initial": { "velocity": 1000 }, "arrival": { "type": "horizon", "from": 0.05, "to": 0.5 },
         "none": 0.05, "destinations": targets(count, own_sizes),
     }))
+}
+
+fn pointing(count: u32, own_sizes: bool) -> Predictor {
+    let targets = (0..count).map(|i| PointerTarget {
+        id: format!("icon {i}"),
+        x: f64::from(100 + 150 * (i % 7)),
+        y: f64::from(100 + 150 * (i / 7)),
+        width: if own_sizes { 40.0 + f64::from(i) * 0.25 } else { 80.0 },
+        height: 60.0,
+    });
+    let options = PointerOptions { none: 0.05 };
+    Predictor::new(&pointer_scenario(&targets.collect::<Vec<_>>(), options).unwrap()).unwrap()
 }
 
 fn read(scenario: &Json) -> Predictor {
@@ -50,4 +63,10 @@ fn after_a_first_movement(mut predictor: Predictor) -> AllocationInfo {
 fn pseudo_observation_allocates_nothing_after_the_first_observations() {
     assert_eq!(after_a_first_movement(pseudo_observation(21, false)).count_total, 0);
     assert_eq!(after_a_first_movement(pseudo_observation(200, true)).count_total, 0);
+}
+
+#[test]
+fn pointing_allocates_nothing_after_the_first_observations() {
+    assert_eq!(after_a_first_movement(pointing(21, false)).count_total, 0);
+    assert_eq!(after_a_first_movement(pointing(200, true)).count_total, 0);
 }

@@ -15,6 +15,7 @@ pub mod algorithm1;
 pub mod algorithm2;
 pub mod bridging;
 pub mod candidates;
+pub(crate) mod layout;
 pub mod plan;
 pub mod pointing;
 pub mod pseudo_observation;

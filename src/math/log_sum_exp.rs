@@ -16,6 +16,25 @@ pub fn log_sum_exp(values: &[f64]) -> f64 {
     largest + values.iter().map(|v| (v - largest).exp()).sum::<f64>().ln()
 }
 
+/// Replaces logarithms by the shares of their numbers in the sum, and returns the logarithm of that sum; none, and nothing
+/// has changed, where it is zero or no number. The shares sum to one however large the logarithms are.
+///
+/// ```
+/// let mut values = [-1e40, -1e40, f64::NEG_INFINITY];
+/// whither::math::log_sum_exp::share(&mut values);
+/// assert_eq!(values, [0.5, 0.5, 0.0]);
+/// ```
+pub fn share(values: &mut [f64]) -> Option<f64> {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if !largest.is_finite() || values.iter().any(|value| value.is_nan()) {
+        return None;
+    }
+    values.iter_mut().for_each(|value| *value = (*value - largest).exp());
+    let sum: f64 = values.iter().sum();
+    values.iter_mut().for_each(|value| *value /= sum);
+    Some(largest + sum.ln())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -116,6 +116,36 @@ pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, l
     }
 }
 
+/// [`weigh`] in so many dimensions.
+pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
+    dimensions: usize,
+    terms: &[T],
+    places: &Places<'_>,
+    shift: f64,
+    priors: &[Block],
+    weights: &mut [Block],
+) -> f64 {
+    match dimensions {
+        1 => weigh::<1, T>(terms, places, shift, priors, weights),
+        2 => weigh::<2, T>(terms, places, shift, priors, weights),
+        _ => weigh::<3, T>(terms, places, shift, priors, weights),
+    }
+}
+
+/// [`log2_sums`] in so many dimensions.
+pub fn log2_sums_in<T: Term<1> + Term<2> + Term<3>>(
+    dimensions: usize,
+    terms: &[T],
+    places: &Places<'_>,
+    logs: &mut [Block],
+) {
+    match dimensions {
+        1 => log2_sums::<1, T>(terms, places, logs),
+        2 => log2_sums::<2, T>(terms, places, logs),
+        _ => log2_sums::<3, T>(terms, places, logs),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

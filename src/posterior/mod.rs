@@ -5,7 +5,7 @@ pub mod pointing;
 pub mod state;
 
 use crate::likelihood::candidates::Movement;
-use crate::math::log_sum_exp::log_sum_exp;
+use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::model::destination::Destinations;
 
 /// Destinations that are asked about, each with its share; the shares need not sum to one.
@@ -118,12 +118,11 @@ impl Posterior {
     #[must_use]
     pub fn nodes_of(&self, movement: &Movement, i: usize) -> Vec<f64> {
         let (from, to) = (movement.plan.rows[i], movement.plan.rows[i + 1]);
-        let terms: Vec<f64> = self.joint.iter().flat_map(|table| table[from..to].iter().copied()).collect();
-        let total = log_sum_exp(&terms);
-        if !total.is_finite() {
-            return vec![0.0; terms.len()];
+        let mut terms: Vec<f64> = self.joint.iter().flat_map(|table| table[from..to].iter().copied()).collect();
+        if share(&mut terms).is_none() {
+            terms.fill(0.0);
         }
-        terms.iter().map(|term| (term - total).exp()).collect()
+        terms
     }
 
     /// Whether what "none" leaves of the probabilities is enough to tell the destinations apart; else the log likelihoods do.
@@ -142,9 +141,11 @@ impl Posterior {
             self.probabilities.clone()
         } else {
             let weighed = self.log_likelihoods.iter().zip(destinations.priors()).map(|(l, prior)| l + prior.ln());
-            let weighed: Vec<f64> = weighed.collect();
-            let total = log_sum_exp(&weighed);
-            weighed.iter().map(|l| if total.is_finite() { (l - total).exp() } else { 0.0 }).collect()
+            let mut weighed: Vec<f64> = weighed.collect();
+            if share(&mut weighed).is_none() {
+                weighed.fill(0.0);
+            }
+            weighed
         };
         beside_none.into_iter().enumerate().filter(|(_, share)| *share > 0.0).collect()
     }

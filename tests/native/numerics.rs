@@ -246,3 +246,26 @@ fn a_mirrored_or_turned_layout_gives_the_same_probabilities() {
         }
     }
 }
+
+#[test]
+fn after_a_pause_of_centuries_a_likelihood_is_a_number_or_nothing() {
+    let mut predictor = predictor(&json!({
+        "motion": { "type": "constantAcceleration", "dimensions": 1, "noise": 0.747_138_913_451_869_2 },
+        "observation": { "noise": 0.507_970_635_914_7 }, "none": 0.2,
+        "initial": { "velocity": 2, "acceleration": 1.8 },
+        "arrival": { "type": "horizon", "from": 1.441_200_197_606_462_4, "to": 6.332_146_447_139_211 },
+        "quadrature": { "rule": "simpson", "points": 5 },
+        "destinations": [
+            { "id": "a", "mean": [-1.7], "covariance": [[1.016]] },
+            { "id": "b", "mean": [5.26, 1.77], "covariance": [[0.86, 0.26], [0.26, 0.43]] },
+        ],
+    }));
+    predictor.observe(0.0, &[-4.7]).unwrap();
+    for time in [1.1e10, 1.110_488_300_0e10, 9e10, 1e11, 5e11] {
+        predictor.observe(time, &[1.0]).unwrap();
+        let logs = predictor.log_likelihoods().to_vec();
+        assert!(logs.iter().all(|log| *log < f64::INFINITY), "{logs:?}");
+        let sum: f64 = predictor.probabilities().iter().sum::<f64>() + predictor.none();
+        assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+    }
+}

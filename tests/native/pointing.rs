@@ -360,3 +360,23 @@ fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
     }
     assert!(worst > 0.0, "compared with itself");
 }
+
+#[test]
+fn a_movement_beyond_all_numbers_leaves_what_is_believed_at_its_prior() {
+    let case = golden("pointing-ring12");
+    for (far, noise) in [(1e12, 0.5), (1e25, 0.5), (1e31, 1e22), (1e48, 1e28), (1e49, 0.5)] {
+        let mut scenario = case["scenario"].clone();
+        scenario["observation"]["noise"] = json!(noise);
+        let mut predictor = predictor(&scenario);
+        for (k, position) in [[0.0, 0.0], [far, -far], [-far, 0.5 * far], [far, far]].iter().enumerate() {
+            predictor.observe(0.01 * k as f64, position).unwrap();
+            let sum: f64 = predictor.probabilities().iter().sum::<f64>() + predictor.none();
+            let arrival = predictor.arrival(None).unwrap().unwrap();
+            let nodes: f64 = arrival.probabilities.iter().sum();
+            assert!((sum - 1.0).abs() < 1e-12 && (nodes - 1.0).abs() < 1e-12, "{far:e} k = {k}: {sum} {nodes}");
+            let now = predictor.state().unwrap();
+            let fine = now.mean.iter().all(|x| x.is_finite()) && now.covariance.diagonal().iter().all(|x| *x >= 0.0);
+            assert!(fine, "{far:e} k = {k}: {now:?}");
+        }
+    }
+}

@@ -12,7 +12,7 @@ use super::course::Course;
 use super::parameters::Parameters;
 use super::{Symmetric, Vector, dot, minus, vector};
 use crate::math::gaussian::LN_2_PI;
-use crate::math::log_sum_exp::log_sum_exp;
+use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::math::mixture::{Density, Ellipsoid, HALF_LOG2_E};
 use nalgebra::DMatrix;
 
@@ -83,12 +83,13 @@ impl Nodes {
         log_sum_exp(&self.log_terms(center, endpoint))
     }
 
-    /// `p(c, R_n | D_i)`, in the order of the pairs; nothing where `N_i` is no number.
+    /// `p(c, R_n | D_i)`, in the order of the pairs; their priors where `N_i` is zero or no number.
     #[must_use]
     pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
         let mut terms = self.log_terms(center, endpoint);
-        let total = log_sum_exp(&terms);
-        terms.iter_mut().for_each(|term| *term = if total.is_finite() { (*term - total).exp() } else { 0.0 });
+        if share(&mut terms).is_none() {
+            terms.iter_mut().zip(&self.pairs).for_each(|(term, pair)| *term = pair.weight);
+        }
         terms
     }
 

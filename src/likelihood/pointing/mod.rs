@@ -25,7 +25,7 @@ pub mod parameters;
 pub(crate) mod targets;
 pub(crate) mod weigh;
 
-use crate::math::log_sum_exp::log_sum_exp;
+use crate::math::log_sum_exp::share;
 use crate::model::destination::Destinations;
 use course::Course;
 use endpoint::Nodes;
@@ -77,6 +77,8 @@ pub fn vector(components: &[f64]) -> Vector {
 #[derive(Clone, Debug)]
 pub(crate) struct Pointing {
     parameters: Arc<Parameters>,
+    /// That of the start density.
+    log_volume: f64,
     course: Course,
     nodes: Nodes,
     targets: Targets,
@@ -100,7 +102,8 @@ impl Pointing {
     #[must_use]
     pub fn resume(parameters: Arc<Parameters>, destinations: &Destinations, course: Course) -> Self {
         let (nodes, targets) = (Nodes::new(&parameters, &course), Targets::default());
-        let mut pointing = Self { parameters, course, nodes, targets, work: Work::default() };
+        let log_volume = parameters.start.log_volume(course.dimensions());
+        let mut pointing = Self { parameters, log_volume, course, nodes, targets, work: Work::default() };
         pointing.replan(destinations);
         pointing
     }
@@ -119,7 +122,7 @@ impl Pointing {
 
     /// Other destinations, in mid-movement too.
     pub fn replan(&mut self, destinations: &Destinations) {
-        self.targets.fill(destinations, &self.parameters, &self.course.start);
+        self.targets.fill(destinations, &self.parameters, self.log_volume, &self.course.start);
     }
 
     /// Writes the probabilities among the destinations, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
@@ -143,26 +146,23 @@ impl Pointing {
             let near = log_near(self.parameters.near, &offset, destinations.kind(i), self.course.dimensions());
             *value += near + (prior / total).ln();
         }
-        let log_sum = log_sum_exp(into);
-        into.iter_mut().for_each(|value| *value = (*value - log_sum).exp());
-        log_sum.is_finite().then_some(log_sum)
+        share(into)
     }
 
     /// `g (ln N_i - ln S_i) + B_i` for every destination; zero after the first observation alone.
     pub fn log_likelihoods(&self, destinations: &Destinations, into: &mut Vec<f64>) {
-        let (parameters, d) = (&*self.parameters, self.course.dimensions());
+        let parameters = &*self.parameters;
         into.clear();
         if self.course.observations < 2 {
             into.resize(destinations.len(), 0.0);
             return;
         }
         let power = parameters.power.after(self.course.elapsed);
-        let log_volume = parameters.start.log_volume(d);
         let direction = DirectionNow::new(&parameters.direction, &self.course);
         into.extend((0..destinations.len()).map(|i| {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
             let offset = minus(&vector(center), &self.course.start);
-            let start = log_start(&parameters.start, &offset) - log_volume;
+            let start = log_start(&parameters.start, &offset) - self.log_volume;
             let seen = direction.log_evidence(&offset, covariance);
             let whole = power * (self.nodes.log_density(center, covariance) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known

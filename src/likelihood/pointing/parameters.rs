@@ -245,17 +245,17 @@ fn filter_noise(motion: &Motion) -> Result<f64> {
     }
 }
 
-/// The variances of the axes, which the pointing model takes one by one.
+/// The variances of the axes, which the pointing model takes one by one; zero for those beyond the dimensions.
 ///
 /// # Errors
 /// `out-of-range` where the axes are correlated.
-pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<Vec<f64>> {
+pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<[f64; 3]> {
     let correlated = (0..noise.nrows()).any(|r| (0..r).any(|c| noise[(r, c)] != 0.0));
     if correlated {
         let message = "must have no correlation between axes with the method \"pointing\"";
         return Err(Error::new(Code::OutOfRange, path, message));
     }
-    Ok(noise.diagonal().as_slice().to_vec())
+    Ok(std::array::from_fn(|axis| noise.get((axis, axis)).copied().unwrap_or(0.0)))
 }
 
 fn read_scales(node: &Node<'_>) -> Result<Vec<f64>> {

@@ -3,15 +3,12 @@
 use super::evidence::{angular_variance, log_near, log_start};
 use super::parameters::Parameters;
 use super::{Symmetric, Vector, dot, minus, vector};
+use crate::likelihood::layout::Layout;
 use crate::likelihood::pointing::endpoint::symmetric;
 use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::{AXES, Places};
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// In [`Targets::order`], a place that only fills a block up.
-const NOBODY: u32 = u32::MAX;
 
 /// The variance of a direction that says nothing.
 const NO_DIRECTION: f64 = 1e100;
@@ -43,18 +40,16 @@ pub struct Targets {
     pub priors: Vec<Block>,
     /// Whether no number is so large or small that products with it may leave their range.
     pub moderate: bool,
-    coordinates: [Vec<Block>; AXES],
-    variances: [Vec<Block>; AXES],
-    order: Vec<u32>,
-    count: usize,
+    /// Where they stand.
+    pub layout: Layout,
 }
 
 impl Targets {
-    /// Writes down the destinations as a movement from `start` sees them.
-    pub fn fill(&mut self, destinations: &Destinations, parameters: &Parameters, start: &Vector) {
+    /// Writes down the destinations as a movement from `start` sees them; `log_volume` is that of the start density.
+    pub fn fill(&mut self, destinations: &Destinations, parameters: &Parameters, log_volume: f64, start: &Vector) {
         let d = destinations.dimensions();
-        self.clear();
-        self.count = destinations.len();
+        self.classes.clear();
+        self.layout.clear();
         let mut members: Vec<Vec<u32>> = vec![Vec::new(); destinations.kinds().len()];
         for (i, &kind) in (0..).zip(destinations.kind_of()) {
             members[kind as usize].push(i);
@@ -69,46 +64,27 @@ impl Targets {
             }
         }
         self.place(destinations, &pool, None);
-        self.see(destinations, parameters, start);
-    }
-
-    fn clear(&mut self) {
-        self.classes.clear();
-        self.order.clear();
-        self.coordinates.iter_mut().chain(&mut self.variances).for_each(Vec::clear);
-        let (starts, directions) = (&mut self.over_start, &mut self.angular_variance);
-        [starts, directions, &mut self.over_distance, &mut self.priors].into_iter().for_each(Vec::clear);
+        self.layout.finish(destinations);
+        self.see(destinations, parameters, log_volume, start);
     }
 
     fn place(&mut self, destinations: &Destinations, members: &[u32], covariance: Option<Symmetric>) {
-        let begin = self.order.len() / WIDTH;
-        for chunk in members.chunks(WIDTH) {
-            // a block is filled up with its first destination, at no weight
-            let member = |lane: usize| chunk.get(lane).map_or(chunk[0] as usize, |&i| i as usize);
-            for axis in 0..destinations.dimensions() {
-                self.coordinates[axis].push(std::array::from_fn(|lane| destinations.center(member(lane))[axis]));
-                if covariance.is_none() {
-                    let variance = |lane: usize| destinations.kind(member(lane)).covariance[(axis, axis)];
-                    self.variances[axis].push(std::array::from_fn(variance));
-                }
-            }
-            self.order.extend((0..WIDTH).map(|lane| chunk.get(lane).map_or(NOBODY, |&i| i)));
-        }
+        let blocks = self.layout.place(destinations, members, covariance.is_none());
         if !members.is_empty() {
-            self.classes.push(Class { covariance, blocks: begin..self.order.len() / WIDTH });
+            self.classes.push(Class { covariance, blocks });
         }
     }
 
     /// What the start says of each.
-    fn see(&mut self, destinations: &Destinations, parameters: &Parameters, start: &Vector) {
+    fn see(&mut self, destinations: &Destinations, parameters: &Parameters, log_volume: f64, start: &Vector) {
         let d = destinations.dimensions();
-        let log_volume = parameters.start.log_volume(d);
         let total: f64 = destinations.priors().iter().sum();
         self.moderate = true;
-        for block in self.order.chunks(WIDTH) {
+        let (starts, directions) = (&mut self.over_start, &mut self.angular_variance);
+        [starts, directions, &mut self.over_distance, &mut self.priors].into_iter().for_each(Vec::clear);
+        for block in self.layout.members() {
             let [mut over_start, mut directions, mut over_distance, mut priors] = [[0.0; WIDTH]; 4];
-            for (lane, &member) in block.iter().enumerate() {
-                let i = if member == NOBODY { block[0] } else { member } as usize;
+            for (lane, (i, stands)) in block.into_iter().enumerate() {
                 let (kind, offset) = (destinations.kind(i), minus(&vector(destinations.center(i)), start));
                 let log_start = log_start(&parameters.start, &offset) - log_volume;
                 let near = log_near(parameters.near, &offset, kind, d);
@@ -120,7 +96,7 @@ impl Targets {
                 } else {
                     (NO_DIRECTION, 0.0)
                 };
-                if member != NOBODY {
+                if stands {
                     priors[lane] = destinations.priors()[i] / total * near.exp();
                 }
             }
@@ -128,40 +104,6 @@ impl Targets {
             self.angular_variance.push(directions);
             self.over_distance.push(over_distance);
             self.priors.push(priors);
-        }
-    }
-
-    /// The places of a class.
-    pub fn places(&self, class: &Class) -> Places<'_> {
-        // those with variances of their own stand last
-        let begin = self.order.len() / WIDTH - self.variances[0].len();
-        let blocks = |list: &'_ Vec<Block>, shift: usize| match list.is_empty() {
-            true => 0..0,
-            false => class.blocks.start - shift..class.blocks.end - shift,
-        };
-        let own = class.covariance.is_none();
-        Places {
-            coordinates: std::array::from_fn(|k| &self.coordinates[k][blocks(&self.coordinates[k], 0)]),
-            variances: std::array::from_fn(|k| {
-                &self.variances[k][if own { blocks(&self.variances[k], begin) } else { 0..0 }]
-            }),
-            origin: [0.0; AXES],
-        }
-    }
-
-    /// The coordinates of all, a list for each axis.
-    pub fn coordinates(&self) -> [&[Block]; AXES] {
-        self.coordinates.each_ref().map(Vec::as_slice)
-    }
-
-    /// Takes what stands in the order of the arrays, times `scale`, to the order of the destinations.
-    pub fn scatter(&self, from: &[Block], scale: f64, into: &mut Vec<f64>) {
-        into.clear();
-        into.resize(self.count, 0.0);
-        for (x, &i) in from.as_flattened().iter().zip(&self.order) {
-            if let Some(place) = into.get_mut(i as usize) {
-                *place = x * scale;
-            }
         }
     }
 }

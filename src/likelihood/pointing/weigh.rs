@@ -12,7 +12,7 @@ use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
 use super::targets::Targets;
 use crate::math::lanes::{Block, Lanes, Shift, WIDTH};
-use crate::math::mixture::{Density, Ellipsoid, Places, Term, weigh};
+use crate::math::mixture::{AXES, Density, Ellipsoid, weigh_in};
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
 const CERTAIN: f64 = -500.0;
@@ -51,16 +51,16 @@ impl Work {
         self.weights.resize(targets.priors.len(), [0.0; WIDTH]);
         let d = now.nodes.dimensions();
         for class in &targets.classes {
-            let (places, blocks) = (targets.places(class), class.blocks.clone());
+            let (places, blocks) = (targets.layout.places(&class.blocks, [0.0; AXES]), class.blocks.clone());
             let (over_start, weights) = (&targets.over_start[blocks.clone()], &mut self.weights[blocks]);
             match &class.covariance {
                 Some(covariance) => {
                     now.nodes.ellipsoids(covariance, &mut self.ellipsoids);
-                    sum(d, &self.ellipsoids, &places, over_start, weights);
+                    weigh_in(d, &self.ellipsoids, &places, 0.0, over_start, weights);
                 }
                 None => {
                     now.nodes.densities(&mut self.densities);
-                    sum(d, &self.densities, &places, over_start, weights);
+                    weigh_in(d, &self.densities, &places, 0.0, over_start, weights);
                 }
             }
         }
@@ -74,7 +74,8 @@ impl Work {
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
             return None;
         }
-        targets.scatter(&self.weights, 1.0 / total, into);
+        targets.layout.scatter(&self.weights, into);
+        into.iter_mut().for_each(|weight| *weight /= total);
         Some(total.ln() + shift * std::f64::consts::LN_2)
     }
 
@@ -83,7 +84,7 @@ impl Work {
     #[inline(never)]
     fn exponents<const D: usize>(&mut self, targets: &Targets, now: &Now<'_>) -> (f64, f64) {
         let s = Lanes::splat;
-        let coordinates = targets.coordinates();
+        let coordinates = targets.layout.coordinates();
         let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));
         let (power, weight, way) = (s(now.power), s(now.direction.weight()), now.direction.unit());
         let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
@@ -132,18 +133,4 @@ impl Work {
         }
         total.sum()
     }
-}
-
-fn sum<T: Term<1> + Term<2> + Term<3>>(
-    dimensions: usize,
-    terms: &[T],
-    places: &Places<'_>,
-    factors: &[Block],
-    sums: &mut [Block],
-) {
-    match dimensions {
-        1 => weigh::<1, T>(terms, places, 0.0, factors, sums),
-        2 => weigh::<2, T>(terms, places, 0.0, factors, sums),
-        _ => weigh::<3, T>(terms, places, 0.0, factors, sums),
-    };
 }

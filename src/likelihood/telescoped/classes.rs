@@ -1,9 +1,9 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
 use super::separable::{AxisEnd, MOST};
+use crate::likelihood::layout::Layout;
 use crate::likelihood::plan::Plan;
 use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::{AXES, Places};
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -113,16 +113,9 @@ pub struct Classes {
     pub classes: Vec<Class>,
     /// Prior probabilities, which sum to one; zero where a block is filled up.
     pub priors: Vec<Block>,
-    /// Which destination stands where; none where they stand in their own order.
-    pub order: Option<Vec<u32>>,
-    /// How many there are.
-    pub count: usize,
-    coordinates: [Vec<Block>; AXES],
-    variances: [Vec<Block>; AXES],
+    /// Where they stand.
+    pub layout: Layout,
 }
-
-/// In [`Classes::order`], a place that only fills a block up.
-const NOBODY: u32 = u32::MAX;
 
 struct Draft {
     size: [f64; MOST],
@@ -151,32 +144,24 @@ impl Classes {
             ends: Vec::new(),
             classes: Vec::new(),
             priors: Vec::new(),
-            order: None,
-            count: destinations.len(),
-            coordinates: Default::default(),
-            variances: Default::default(),
+            layout: Layout::default(),
         };
-        let mut order = Vec::new();
         for ((nodes, end), drafts) in classes.drafts(destinations, plan) {
             let many = classes.separable && drafts.len() > 1;
-            let mut pool: Vec<([f64; MOST], u32)> = Vec::new();
+            let mut pool = Vec::new();
             for draft in drafts {
                 if many && draft.members.len() < WIDTH {
-                    pool.extend(draft.members.iter().map(|&i| (draft.size, i)));
+                    pool.extend(draft.members);
                 } else {
-                    let members: Vec<_> = draft.members.iter().map(|&i| (draft.size, i)).collect();
-                    classes.place(destinations, &members, &mut order, (nodes, end, Some(draft.size)));
+                    classes.place(destinations, &draft.members, (nodes, end, Some(draft.size)));
                 }
             }
-            classes.place(destinations, &pool, &mut order, (nodes, end, None));
+            classes.place(destinations, &pool, (nodes, end, None));
         }
-        if classes.classes.iter().all(|class| class.size.is_some()) {
-            classes.variances = Default::default();
-        }
-        let in_order = order.iter().take(destinations.len()).zip(0..).all(|(&i, place)| i == place);
-        classes.order = (!in_order).then_some(order);
+        classes.layout.finish(destinations);
         let total: f64 = destinations.priors().iter().sum();
-        classes.priors.as_flattened_mut().iter_mut().for_each(|prior| *prior /= total);
+        let prior = |(i, stands): (usize, bool)| if stands { destinations.priors()[i] / total } else { 0.0 };
+        classes.priors.extend(classes.layout.members().map(|members| members.map(prior)));
         classes
     }
 
@@ -218,54 +203,12 @@ impl Classes {
     fn place(
         &mut self,
         destinations: &Destinations,
-        members: &[([f64; MOST], u32)],
-        order: &mut Vec<u32>,
+        members: &[u32],
         (nodes, end, size): (usize, usize, Option<[f64; MOST]>),
     ) {
-        let start = self.priors.len();
-        for chunk in members.chunks(WIDTH) {
-            // a block is filled up with its first destination, at no weight
-            let member = |lane: usize| chunk.get(lane).unwrap_or(&chunk[0]);
-            for axis in 0..self.dimensions {
-                let centre = |lane: usize| destinations.center(member(lane).1 as usize)[axis];
-                self.coordinates[axis].push(std::array::from_fn(centre));
-                self.variances[axis].push(std::array::from_fn(|lane| member(lane).0[axis]));
-            }
-            let prior = |lane: usize| chunk.get(lane).map_or(0.0, |&(_, i)| destinations.priors()[i as usize]);
-            self.priors.push(std::array::from_fn(prior));
-            order.extend((0..WIDTH).map(|lane| chunk.get(lane).map_or(NOBODY, |&(_, i)| i)));
-        }
+        let blocks = self.layout.place(destinations, members, size.is_none());
         if !members.is_empty() {
-            self.classes.push(Class { nodes, end, size, blocks: start..self.priors.len() });
-        }
-    }
-
-    /// The places of a class.
-    pub fn places(&self, class: &Class, origin: [f64; AXES]) -> Places<'_> {
-        let of = |list: &'_ [Vec<Block>; AXES]| -> [Range<usize>; AXES] {
-            std::array::from_fn(|axis| if list[axis].is_empty() { 0..0 } else { class.blocks.clone() })
-        };
-        let (coordinates, variances) = (of(&self.coordinates), of(&self.variances));
-        Places {
-            coordinates: std::array::from_fn(|axis| &self.coordinates[axis][coordinates[axis].clone()]),
-            variances: std::array::from_fn(|axis| &self.variances[axis][variances[axis].clone()]),
-            origin,
-        }
-    }
-
-    /// Takes what stands in the order of the arrays to the order of the destinations.
-    pub fn scatter(&self, from: &[Block], into: &mut Vec<f64>) {
-        into.clear();
-        match &self.order {
-            None => into.extend(&from.as_flattened()[..self.count]),
-            Some(order) => {
-                into.resize(self.count, 0.0);
-                for (x, &i) in from.as_flattened().iter().zip(order) {
-                    if let Some(place) = into.get_mut(i as usize) {
-                        *place = *x;
-                    }
-                }
-            }
+            self.classes.push(Class { nodes, end, size, blocks });
         }
     }
 }

@@ -289,7 +289,7 @@ impl Telescoped {
     /// `none`. None where there is no likelihood that is a number above zero.
     pub fn probabilities(&mut self, none: f64, into: &mut Vec<f64>) -> Option<f64> {
         if self.observations < 2 {
-            self.classes.scatter(&self.classes.priors, into);
+            self.classes.layout.scatter(&self.classes.priors, into);
             into.iter_mut().for_each(|p| *p *= 1.0 - none);
             return Some(none);
         }
@@ -319,7 +319,7 @@ impl Telescoped {
             (1.0, 0.0)
         };
         let (scale, least) = (scale / total, LEAST * total);
-        self.classes.scatter(&self.weights, into);
+        self.classes.layout.scatter(&self.weights, into);
         into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
         let beyond = total.log2().round();
         self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
@@ -332,9 +332,13 @@ impl Telescoped {
         if self.observations > 1 {
             self.log2_sums(&mut logs);
         }
-        self.classes.scatter(&logs, into);
+        self.classes.layout.scatter(&logs, into);
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
-        into.iter_mut().for_each(|log| *log = *log * std::f64::consts::LN_2 + evidence);
+        for log in into {
+            let whole = *log * std::f64::consts::LN_2 + evidence;
+            // beyond what numbers can tell, nothing is known
+            *log = if whole.is_nan() { f64::NEG_INFINITY } else { whole };
+        }
     }
 
     /// The sum of the candidates' weights times what their evidence has over that of the first one, as a power of two.

@@ -11,7 +11,7 @@
 use super::classes::{Class, Classes};
 use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
 use crate::math::lanes::{Block, Lanes, WIDTH};
-use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, Places, Term, log2_sums, weigh};
+use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
 
 /// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
 /// too much, and the [`Ellipsoid`] is taken.
@@ -128,7 +128,7 @@ impl Work {
         shift: f64,
         weights: &mut [Block],
     ) -> f64 {
-        let places = classes.places(class, origin);
+        let places = classes.layout.places(&class.blocks, origin);
         let priors = &classes.priors[class.blocks.clone()];
         let (d, weights) = (classes.dimensions, &mut weights[class.blocks.clone()]);
         match class.size {
@@ -150,7 +150,7 @@ impl Work {
     /// Writes `log2` of the sums of a class, whatever their size.
     #[inline(never)]
     pub fn log2_sums(&mut self, classes: &Classes, class: &Class, logs: &mut [Block]) {
-        let places = classes.places(class, [0.0; AXES]);
+        let places = classes.layout.places(&class.blocks, [0.0; AXES]);
         let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
         match class.size {
             None => {
@@ -264,33 +264,5 @@ impl Work {
                 });
             }
         }
-    }
-}
-
-fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
-    dimensions: usize,
-    terms: &[T],
-    places: &Places<'_>,
-    shift: f64,
-    priors: &[Block],
-    weights: &mut [Block],
-) -> f64 {
-    match dimensions {
-        1 => weigh::<1, T>(terms, places, shift, priors, weights),
-        2 => weigh::<2, T>(terms, places, shift, priors, weights),
-        _ => weigh::<3, T>(terms, places, shift, priors, weights),
-    }
-}
-
-fn log2_sums_in<T: Term<1> + Term<2> + Term<3>>(
-    dimensions: usize,
-    terms: &[T],
-    places: &Places<'_>,
-    logs: &mut [Block],
-) {
-    match dimensions {
-        1 => log2_sums::<1, T>(terms, places, logs),
-        2 => log2_sums::<2, T>(terms, places, logs),
-        _ => log2_sums::<3, T>(terms, places, logs),
     }
 }

@@ -1,0 +1,107 @@
+//! Destinations as flat arrays of blocks, those of one class together: what the hot loops run over.
+
+use crate::math::lanes::{Block, WIDTH};
+use crate::math::mixture::{AXES, Places};
+use crate::model::destination::Destinations;
+use std::ops::Range;
+
+/// In [`Layout::order`], a place that only fills a block up.
+const NOBODY: u32 = u32::MAX;
+
+/// Where the destinations stand.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    coordinates: [Vec<Block>; AXES],
+    variances: [Vec<Block>; AXES],
+    /// Which destination stands where.
+    order: Vec<u32>,
+    in_order: bool,
+    count: usize,
+    own_variances: bool,
+}
+
+impl Layout {
+    /// Forgets all destinations and keeps the room.
+    pub fn clear(&mut self) {
+        self.order.clear();
+        self.coordinates.iter_mut().chain(&mut self.variances).for_each(Vec::clear);
+        self.own_variances = false;
+    }
+
+    /// Puts destinations after those that are there and tells where they stand; `own` is whether each has its own variances.
+    pub fn place(&mut self, destinations: &Destinations, members: &[u32], own: bool) -> Range<usize> {
+        let start = self.blocks();
+        self.own_variances |= own && !members.is_empty();
+        for chunk in members.chunks(WIDTH) {
+            // a block is filled up with its first destination, at no weight
+            let member = |lane: usize| *chunk.get(lane).unwrap_or(&chunk[0]) as usize;
+            for axis in 0..destinations.dimensions() {
+                self.coordinates[axis].push(std::array::from_fn(|lane| destinations.center(member(lane))[axis]));
+                let variance = |lane: usize| destinations.kind(member(lane)).covariance[(axis, axis)];
+                self.variances[axis].push(std::array::from_fn(variance));
+            }
+            self.order.extend((0..WIDTH).map(|lane| chunk.get(lane).copied().unwrap_or(NOBODY)));
+        }
+        start..self.blocks()
+    }
+
+    /// Once all of them are there.
+    pub fn finish(&mut self, destinations: &Destinations) {
+        self.count = destinations.len();
+        self.in_order = self.order.iter().take(self.count).zip(0..).all(|(&i, place)| i == place);
+        if !self.own_variances {
+            self.variances = Default::default();
+        }
+    }
+
+    /// How many blocks there are.
+    #[must_use]
+    pub fn blocks(&self) -> usize {
+        self.order.len() / WIDTH
+    }
+
+    /// The destinations of each block and whether they stand there themselves or only fill it up.
+    pub fn members(&self) -> impl Iterator<Item = [(usize, bool); WIDTH]> {
+        let named = |block: &[u32]| {
+            std::array::from_fn(|lane| {
+                let stands = block[lane] != NOBODY;
+                (if stands { block[lane] } else { block[0] } as usize, stands)
+            })
+        };
+        self.order.chunks_exact(WIDTH).map(named)
+    }
+
+    /// The coordinates of all, a list for each axis.
+    #[must_use]
+    pub fn coordinates(&self) -> [&[Block]; AXES] {
+        self.coordinates.each_ref().map(Vec::as_slice)
+    }
+
+    /// The places of some blocks.
+    #[must_use]
+    pub fn places(&self, blocks: &Range<usize>, origin: [f64; AXES]) -> Places<'_> {
+        let of = |list: &'_ [Vec<Block>; AXES]| -> [Range<usize>; AXES] {
+            std::array::from_fn(|axis| if list[axis].is_empty() { 0..0 } else { blocks.clone() })
+        };
+        let (coordinates, variances) = (of(&self.coordinates), of(&self.variances));
+        Places {
+            coordinates: std::array::from_fn(|axis| &self.coordinates[axis][coordinates[axis].clone()]),
+            variances: std::array::from_fn(|axis| &self.variances[axis][variances[axis].clone()]),
+            origin,
+        }
+    }
+
+    /// Takes what stands in the order of the arrays to the order of the destinations.
+    pub fn scatter(&self, from: &[Block], into: &mut Vec<f64>) {
+        into.clear();
+        if self.in_order {
+            return into.extend(&from.as_flattened()[..self.count]);
+        }
+        into.resize(self.count, 0.0);
+        for (x, &i) in from.as_flattened().iter().zip(&self.order) {
+            if let Some(place) = into.get_mut(i as usize) {
+                *place = *x;
+            }
+        }
+    }
+}
