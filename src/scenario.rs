@@ -21,6 +21,7 @@ use crate::likelihood::pointing::parameters::Parameters;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
+use crate::model::endpoint::Endpoint;
 use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
@@ -151,12 +152,14 @@ impl Scenario {
     /// Whether these destinations go with the method, and fit into memory.
     ///
     /// # Errors
-    /// `method-accumulates`, `too-large`; `unknown-key` with the pointing model, which has nodes of its own.
+    /// `method-accumulates`, `too-large`, `not-positive-definite`; `unknown-key` with the pointing model, which has nodes of
+    /// its own.
     pub(crate) fn check_destinations(&self, destinations: &Destinations) -> Result<()> {
         let Engine::Papers { method, arrival, quadrature } = &self.engine else {
             return check_for_pointing(destinations);
         };
         self.check_size(destinations, *method, arrival, quadrature)?;
+        self.check_noise(destinations, *method)?;
         let own = |i: &usize| destinations.kind(*i).arrival.as_ref().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
@@ -191,6 +194,25 @@ impl Scenario {
             method.name()
         );
         Err(Error::new(Code::TooLarge, "destinations", message))
+    }
+
+    /// Where the endpoint is independent of the start, as these methods have it, some noise must lead to all of it: the
+    /// state alone would settle the rest, against what the destination says. Only `custom` can be without.
+    fn check_noise(&self, destinations: &Destinations, method: Method) -> Result<()> {
+        if !matches!(method, Method::Bridging | Method::SingleFilter) {
+            return Ok(());
+        }
+        let length = (0..destinations.len()).map(|i| destinations.mean(i).len()).max().unwrap_or(0);
+        // the rank is the same after any time
+        if !self.motion.candidates.iter().any(|c| Endpoint::after(c.model.as_ref(), 1.0, length).is_singular()) {
+            return Ok(());
+        }
+        let message = format!(
+            "must reach each of the endpoint's {length} components: with \"{}\" the endpoint does not depend on the start, \
+             so noise must lead to it; \"pseudoObservation\", \"algorithm1\" and \"algorithm2\" can do without",
+            method.name()
+        );
+        Err(Error::new(Code::NotPositiveDefinite, "motion.diffusion", message))
     }
 
     /// An error where the method accumulates evidence for each destination and node.

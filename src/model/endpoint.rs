@@ -1,7 +1,11 @@
 //! The endpoint seen from a state some time before it: `G~ x_T = B x + n + D c + e`, `e ~ N(0, G~ Q G~')`, Liang (9).
 
 use super::motion::{MotionModel, Transition};
+use crate::math::gaussian::Factor;
 use nalgebra::{DMatrix, DVector};
+
+/// How near to no noise at all counts as none, in units of each component's own deviation.
+const NO_NOISE: f64 = 1e-12;
 
 /// The first `l` components of the state a time `R` later.
 ///
@@ -39,6 +43,20 @@ impl Endpoint {
         }
     }
 
+    /// Whether the state leaves something of the endpoint without chance: `G~ Q(R) G~'` is singular, whatever its units.
+    #[must_use]
+    pub fn is_singular(&self) -> bool {
+        let deviation = |i: usize| self.noise[(i, i)].sqrt();
+        let length = self.noise.nrows();
+        let correlation = DMatrix::from_fn(length, length, |i, j| match (i == j, self.noise[(i, j)]) {
+            (false, 0.0) => 0.0,
+            (false, covariance) => covariance / deviation(i) / deviation(j),
+            (true, variance) => f64::from(u8::from(variance > 0.0)) - NO_NOISE,
+        });
+        // what overflows is another matter
+        self.noise.iter().all(|x| x.is_finite()) && Factor::new(correlation).is_none()
+    }
+
     /// `n + D c`, the part of the prediction that does not depend on the state.
     #[must_use]
     pub fn constant(&self, center: &[f64]) -> DVector<f64> {
@@ -64,5 +82,34 @@ fn constant(offset: &DVector<f64>, gain: Option<&DMatrix<f64>>, center: &[f64]) 
     match gain {
         Some(gain) => offset + gain * DVector::from_column_slice(center),
         None => offset.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::motion::Motion;
+    use crate::value::{Node, Value};
+
+    fn endpoint(motion: &str, time: f64, length: usize) -> Endpoint {
+        let value: Value = serde_json::from_str(motion).unwrap();
+        Endpoint::after(Motion::read(&Node::root(&value, "motion")).unwrap().candidates[0].model.as_ref(), time, length)
+    }
+
+    #[test]
+    fn noise_is_singular_where_some_of_the_endpoint_has_none_whatever_the_units() {
+        // from the velocity, in units of 1e-9, noise reaches both components of the axis that has any
+        let one_axis = r#"{ "type": "custom", "dimensions": 2, "drift": [[0, 0, 1], [0, 0, 0], [0, 0, 0]],
+                            "diffusion": [[0, 0, 0], [0, 0, 0], [0, 0, 1e-18]] }"#;
+        assert!(!endpoint(one_axis, 1.0, 1).is_singular());
+        assert!(endpoint(one_axis, 1.0, 2).is_singular());
+        let together =
+            r#"{ "type": "custom", "dimensions": 2, "drift": [[0, 0], [0, 0]], "diffusion": [[1e12, 3], [3, 9e-12]] }"#;
+        assert!(endpoint(together, 1.0, 2).is_singular());
+        let jerk = r#"{ "type": "custom", "dimensions": 1, "drift": [[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]],
+                        "diffusion": [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]] }"#;
+        for (time, length) in [(1e-3, 4), (1.0, 4), (1e3, 4), (1.0, 1)] {
+            assert!(!endpoint(jerk, time, length).is_singular());
+        }
     }
 }
