@@ -153,7 +153,10 @@ export interface CustomMotion {
   readonly dimensions: 1 | 2 | 3;
   /** `A`, `s` by `s`. */
   readonly drift: Matrix;
-  /** `W`, `s` by `s`, symmetric positive semidefinite. */
+  /**
+   * `W`, `s` by `s`, symmetric positive semidefinite. With `bridging` and `singleFilter` it must lead to each component of
+   * the endpoint; the other methods do without.
+   */
   readonly diffusion: Matrix;
   /** `b`, `s` numbers. @defaultValue 0 */
   readonly offset?: Vector | undefined;

@@ -9,6 +9,7 @@
 //! first; `diffusion` is `W`, `s` by `s`, symmetric and positive semi-definite; `offset` is `b` and `destinationGain` is
 //! `B`, `s` by `d`, both zero where they are left out. Axes may mix, so there is no step of one axis.
 //!
+//! The methods `bridging` and `singleFilter` need noise that leads to each component of the endpoint.
 //! A drift that grows overflows where `exp(A h)` does: a step of 1000 time constants is `e^1000`.
 
 use super::{AxisTransition, MotionModel, Transition};
