@@ -337,8 +337,9 @@ export interface Pointing {
   /** The share of probability that is spread over all destinations alike. */
   readonly uniform: number;
   /**
-   * The time to the entry into the target: its logarithm's median is `offset + nodes E[ln R] + speed ln(speed + 50)`, its 80%
-   * interval from the median times `exp(low)` to that times `exp(high)`.
+   * The time to the entry into the target: its logarithm's median is
+   * `offset + nodes E[ln R] + near E[distance / (distance + e)] + elapsed t / (t + 1 s)`, with `e` the way to the edge of a target
+   * and `t` the time since the first observation; its 80% interval from the median times `exp(low)` to that times `exp(high)`.
    *
    * @defaultValue the posterior of the time-to-go nodes, which is too early
    */
@@ -346,7 +347,9 @@ export interface Pointing {
     | {
         readonly offset: number;
         readonly nodes: number;
-        readonly speed: number;
+        readonly near: number;
+        readonly distance: number;
+        readonly elapsed: number;
         readonly low: number;
         readonly high: number;
       }

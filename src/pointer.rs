@@ -135,10 +135,18 @@ fn pointing() -> Value {
         ("noneOffset", Value::Number(-0.67)),
         ("noneShare", Value::Number(0.1)),
         ("uniform", Value::Number(0.015)),
-        // The time to the entry: an absolute error of .13 to .24 s, and .84, .76, .81 within the 80% interval.
+        // The time to the entry: an absolute error of .12, .23, .15 s, and .83, .77, .83 within the 80% interval.
         (
             "remaining",
-            object(&[("offset", -0.405), ("nodes", 1.283), ("speed", 0.223), ("low", -1.223), ("high", 0.872)]),
+            object(&[
+                ("offset", 0.076),
+                ("nodes", 0.443),
+                ("near", -4.238),
+                ("distance", 20.0),
+                ("elapsed", 1.644),
+                ("low", -1.087),
+                ("high", 0.881),
+            ]),
         ),
     ])
 }

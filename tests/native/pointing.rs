@@ -256,7 +256,7 @@ fn a_scenario_is_written_as_it_was_read() {
 #[test]
 fn the_time_to_the_entry_follows_its_constants() {
     let mut scenario = golden("pointing-grid21")["scenario"].clone();
-    let entry = json!({ "offset": 0.5, "nodes": 0, "speed": 0, "low": -1, "high": 2 });
+    let entry = json!({ "offset": 0.5, "nodes": 0, "near": 0, "distance": 20, "elapsed": 0, "low": -1, "high": 2 });
     scenario["pointing"]["remaining"] = entry;
     let mut with = predictor(&scenario);
     with.observe(0.0, &[300.0, 300.0]).unwrap();
@@ -265,6 +265,12 @@ fn the_time_to_the_entry_follows_its_constants() {
     let remaining = with.remaining().unwrap();
     let found = [remaining.mean, remaining.low, remaining.high];
     assert!(relative(&found, &[0.5f64.exp(), (-0.5f64).exp(), 2.5f64.exp()]) < 1e-12, "{found:?}");
+    scenario["pointing"]["remaining"]["elapsed"] = json!(4);
+    let mut with = predictor(&scenario);
+    with.observe(0.0, &[300.0, 300.0]).unwrap();
+    with.observe(3.0, &[310.0, 300.0]).unwrap();
+    // 0.5 + 4 * 3 / (3 + 1)
+    assert!(relative(&[with.remaining().unwrap().mean], &[3.5f64.exp()]) < 1e-12);
     scenario["pointing"]["remaining"]["low"] = json!(1);
     let error = Scenario::from_value(&value(&scenario)).unwrap_err();
     assert_eq!(error.to_string(), "pointing.remaining.low: must be less than 0, got 1");

@@ -30,6 +30,8 @@ struct NoneAnswers {
 #[derive(Debug, Default)]
 pub struct Sums {
     when: [f64; 3],
+    /// Movements, and the sum of their mean absolute errors.
+    movements: [f64; 2],
     bins: [[Bin; BINS]; PRIORS.len()],
     late: [Vec<(f64, bool)>; PRIORS.len()],
 }
@@ -79,6 +81,11 @@ impl Sums {
     /// Adds one track's answers.
     pub fn add(&mut self, answers: &Answers) {
         self.when.iter_mut().zip(answers.when).for_each(|(to, from)| *to += from);
+        let [samples, error, _] = answers.when;
+        if samples > 0.0 {
+            self.movements[0] += 1.0;
+            self.movements[1] += error / samples;
+        }
         for (k, answer) in answers.none.iter().enumerate() {
             for (to, from) in self.bins[k].iter_mut().zip(answer.bins) {
                 to.count += from.count;
@@ -91,7 +98,8 @@ impl Sums {
 
     fn row(&self) -> Vec<f64> {
         let [samples, error, within] = self.when;
-        let mut row = vec![error / samples.max(1.0), within / samples.max(1.0)];
+        let [movements, errors] = self.movements;
+        let mut row = vec![error / samples.max(1.0), errors / movements.max(1.0), within / samples.max(1.0)];
         for (bins, late) in self.bins.iter().zip(&self.late) {
             row.extend([calibration_error(bins), area_under_curve(late)]);
         }
@@ -120,7 +128,10 @@ fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
 pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN);
-    let mut header = vec!["set".to_owned(), "time to the entry: mean error, s".to_owned(), "within the 80%".to_owned()];
+    let mut header = vec!["set", "time to the entry: error over samples, s", "over movements, s", "within the 80%"]
+        .into_iter()
+        .map(str::to_owned)
+        .collect::<Vec<_>>();
     for prior in PRIORS {
         header.push(format!("none at {prior}: calibration error"));
         header.push("area under the curve at 90%".to_owned());
@@ -132,8 +143,8 @@ pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
         table.add_row([vec![name.clone()], row.iter().map(|x| format!("{x:.3}")).collect()].concat());
         all.insert(
             name.clone(),
-            json!({ "remaining": { "error": row[0], "within": row[1] }, "none": PRIORS.iter().enumerate().map(
-                |(k, prior)| json!({ "prior": prior, "calibration": row[2 + 2 * k], "area": row[3 + 2 * k] })).collect::<Vec<_>>() }),
+            json!({ "remaining": { "error": row[0], "byMovement": row[1], "within": row[2] }, "none": PRIORS.iter().enumerate().map(
+                |(k, prior)| json!({ "prior": prior, "calibration": row[3 + 2 * k], "area": row[4 + 2 * k] })).collect::<Vec<_>>() }),
         );
     }
     println!("\nwhen, and none of them (the true target taken out of half of the tracks)\n{table}");

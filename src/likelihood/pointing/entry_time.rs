@@ -1,25 +1,35 @@
 //! The time to the entry into the target, as it is told to the user.
 
+use super::endpoint::{inverse, symmetric, times};
+use super::{Vector, dot};
 use crate::error::{Code, Result};
 use crate::value::{Node, Value};
+use nalgebra::DMatrix;
 
-/// The time to the entry into the target: log-normal-like about a median that follows the nodes and the speed. The nodes'
-/// own mean is too early, since their work is to rank destinations.
+/// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
+/// that it may be going to, and how long the movement has lasted. The nodes' own mean is too early, since their work is to
+/// rank destinations.
 ///
 /// ```
 /// use whither::likelihood::pointing::entry_time::EntryTime;
-/// let entry = EntryTime { offset: 0.0, nodes: 1.0, speed: 0.0, low: -1.0, high: 1.0 };
-/// let [median, low, high] = entry.at(0.3f64.ln(), 800.0);
+/// let entry = EntryTime { offset: 0.0, nodes: 1.0, near: -2.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
+/// let [median, low, high] = entry.at(0.3f64.ln(), 0.0, 0.8);
 /// assert!((median - 0.3).abs() < 1e-12 && low < 0.12 && high > 0.8);
+/// assert!(entry.at(0.3f64.ln(), 0.9, 0.8)[0] < 0.05); // beside the target
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryTime {
-    /// `ln median = offset + nodes E[ln R] + speed ln(speed + 50)`.
+    /// `ln median = offset + nodes E[ln R] + near E[distance/(distance + e)] + elapsed t/(t + 1 s)`, with `e` the way to the
+    /// edge of a destination and `t` the time since the first observation.
     pub offset: f64,
     /// Weight of the nodes' mean logarithm.
     pub nodes: f64,
-    /// Weight of the logarithm of the speed.
-    pub speed: f64,
+    /// Weight of being near.
+    pub near: f64,
+    /// The distance that is half near.
+    pub distance: f64,
+    /// Weight of the time since the first observation: who has been long on the way is slow.
+    pub elapsed: f64,
     /// One in ten arrives before the median times `exp(low)`.
     pub low: f64,
     /// One in ten arrives after the median times `exp(high)`.
@@ -27,12 +37,12 @@ pub struct EntryTime {
 }
 
 impl EntryTime {
-    /// Reads `{ offset, nodes, speed, low, high }`.
+    /// Reads `{ offset, nodes, near, distance, elapsed, low, high }`.
     ///
     /// # Errors
     /// Those of reading a value; `out-of-range`.
     pub fn read(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["offset", "nodes", "speed", "low", "high"])?;
+        let fields = node.fields(&["offset", "nodes", "near", "distance", "elapsed", "low", "high"])?;
         let number = |key: &'static str| fields.required(key)?.number();
         let (low, high) = (number("low")?, number("high")?);
         if low >= 0.0 {
@@ -41,7 +51,15 @@ impl EntryTime {
         if high <= 0.0 {
             return Err(fields.required("high")?.error(Code::OutOfRange, "must be greater than 0"));
         }
-        Ok(Self { offset: number("offset")?, nodes: number("nodes")?, speed: number("speed")?, low, high })
+        Ok(Self {
+            offset: number("offset")?,
+            nodes: number("nodes")?,
+            near: number("near")?,
+            distance: fields.required("distance")?.positive()?,
+            elapsed: number("elapsed")?,
+            low,
+            high,
+        })
     }
 
     /// As a scenario writes it.
@@ -50,16 +68,49 @@ impl EntryTime {
         Value::map([
             ("offset", Value::Number(self.offset)),
             ("nodes", Value::Number(self.nodes)),
-            ("speed", Value::Number(self.speed)),
+            ("near", Value::Number(self.near)),
+            ("distance", Value::Number(self.distance)),
+            ("elapsed", Value::Number(self.elapsed)),
             ("low", Value::Number(self.low)),
             ("high", Value::Number(self.high)),
         ])
     }
 
+    /// How near a destination is, from 1 in it to 0 far away: `offset` is the way to its centre, `endpoint` its covariance.
+    #[must_use]
+    pub fn nearness(&self, offset: &Vector, endpoint: &DMatrix<f64>, dimensions: usize) -> f64 {
+        // a box has the variance side^2/12, so its half side is the root of three variances; the edge is the ellipse in it
+        let (precision, _) = inverse(&symmetric(endpoint, dimensions), dimensions);
+        let half_sides = (dot(&times(&precision, offset), offset) / 3.0).sqrt();
+        let edge = if half_sides > 1.0 { dot(offset, offset).sqrt() * (1.0 - 1.0 / half_sides) } else { 0.0 };
+        self.distance / (self.distance + edge)
+    }
+
     /// The median, and the ends of the 80% interval, in seconds; within what a clock can tell apart.
     #[must_use]
-    pub fn at(&self, mean_log_node: f64, speed: f64) -> [f64; 3] {
-        let median = self.offset + self.nodes * mean_log_node + self.speed * (speed + 50.0).ln();
+    pub fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
+        let median =
+            self.offset + self.nodes * mean_log_node + self.near * nearness + self.elapsed * elapsed / (elapsed + 1.0);
         [median, median + self.low, median + self.high].map(|log| log.clamp(-20.0, 20.0).exp())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_is_told_from_the_edge_of_the_box() {
+        let entry =
+            EntryTime { offset: 0.0, nodes: 1.0, near: -1.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
+        // 300 x 24
+        let wide = DMatrix::from_row_slice(2, 2, &[7500.0, 0.0, 0.0, 48.0]);
+        let near = |x: f64, y: f64| entry.nearness(&[x, y, 0.0], &wide, 2);
+        assert!((near(170.0, 0.0) - 0.5).abs() < 1e-12, "20 beside its right edge");
+        assert!((near(0.0, -32.0) - 0.5).abs() < 1e-12, "20 above its upper edge");
+        assert_eq!([near(149.0, 0.0), near(0.0, 0.0)], [1.0, 1.0], "in it");
+        // 12 on a side, 50 from the centre, so 44 from the edge; what is known of the end's velocity does not matter
+        let square = DMatrix::from_diagonal_element(4, 4, 12.0);
+        assert!((entry.nearness(&[30.0, 40.0, 0.0], &square, 2) - 20.0 / (20.0 + 44.0)).abs() < 1e-12);
     }
 }

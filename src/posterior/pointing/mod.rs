@@ -4,7 +4,7 @@ pub mod state;
 
 use super::arrival_time::Arrival;
 use super::{Posterior, Shares};
-use crate::likelihood::pointing::Pointing;
+use crate::likelihood::pointing::{Pointing, minus, vector};
 use crate::model::destination::Destinations;
 
 impl Posterior {
@@ -36,14 +36,17 @@ impl Pointing {
     #[must_use]
     pub fn entry_time(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<[f64; 3]> {
         let entry = self.parameters().remaining.as_ref()?;
-        let pairs = self.nodes();
-        let (mut mean, mut total) = (0.0, 0.0);
+        let (pairs, course) = (self.nodes(), self.course());
+        let position = course.position();
+        let (mut mean, mut near, mut total) = (0.0, 0.0, 0.0);
         for &(i, share) in shares {
-            let weights = pairs.weights(destinations.center(i), &destinations.kind(i).covariance);
+            let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
+            let weights = pairs.weights(center, covariance);
             mean += share * pairs.pairs.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
+            near += share * entry.nearness(&minus(&vector(center), &position), covariance, course.dimensions());
             total += share;
         }
-        Some(entry.at(mean / total, self.course().speed()))
+        Some(entry.at(mean / total, near / total, course.elapsed))
     }
 
     /// The posterior of the arrival time, in seconds since the first observation.
