@@ -1,17 +1,12 @@
 /**
- * The WebAssembly that is in the package, unpacked.
+ * The engine that is inside the package.
  *
  * @module
  */
 import { base64 } from "./generated/bytes.js";
-import { unavailable } from "./source.js";
+import { unpack } from "./unpack.js";
 
-/** The bytes of the WebAssembly, from their gzipped base64. */
-export async function embedded(): Promise<ArrayBuffer> {
-  if (typeof DecompressionStream !== "function") {
-    throw unavailable('DecompressionStream does not exist here: use "whither/slim" with init({ wasm })');
-  }
-  const packed = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+/** The bytes of the engine's WebAssembly. */
+export function embedded(): Promise<ArrayBuffer> {
+  return unpack(base64);
 }

@@ -1,5 +1,6 @@
-// From src/ to js/generated/: the WebAssembly, small, its JavaScript side, and its bytes as a module.
-import { readFileSync, rmSync, writeFileSync } from "node:fs";
+// From src/ to js/generated/: the WebAssembly, small, its JavaScript side, and its bytes as a module; once for what predicts
+// and once for what learns.
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { join } from "node:path";
 import { gzipSync, constants } from "node:zlib";
@@ -8,8 +9,13 @@ import { answer, main, root, run } from "./run.mjs";
 import { setUp } from "./setup.mjs";
 
 const target = "wasm32-unknown-unknown";
-const compiled = `target/${target}/wasm/whither.wasm`;
 const generated = "js/generated";
+
+/** Each module: its name, the feature that makes it, and the name of its bytes. */
+const modules = [
+  { name: "whither", feature: "wasm", bytes: "bytes" },
+  { name: "study", feature: "wasm-fit", bytes: "study-bytes" },
+];
 
 /** What the engine must have, as wasm-opt names it: what rustc emits by default, and SIMD. */
 const features = [
@@ -25,19 +31,26 @@ const features = [
 ];
 
 export async function buildWasm() {
-  await compile();
-  const inputs = [compiled, "Cargo.lock", "xtask", "package-lock.json", "scripts/build-wasm.mjs"];
-  const outputs = ["whither.js", "whither.d.ts", "whither_bg.wasm", "bytes.js", "bytes.d.ts"];
+  const compiled = modules.map(({ name }) => `target/wasm/${name}.wasm`);
+  // Cargo by itself would compile both whenever it is asked, since they come to the same place.
+  const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
+  await incremental("wasm-modules", { inputs: sources, outputs: compiled }, async () => {
+    for (const [i, { feature }] of modules.entries()) await compile(feature, compiled[i]);
+  });
+  const inputs = [...compiled, "Cargo.lock", "xtask", "package-lock.json", "scripts/build-wasm.mjs"];
+  const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
   await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`) }, async () => {
     rmSync(join(root, generated), { recursive: true, force: true });
-    await bindgen();
-    await optimise();
-    embed();
+    for (const [i, { name, bytes }] of modules.entries()) {
+      await bindgen(compiled[i], name);
+      await optimise(name);
+      embed(name, bytes);
+    }
   });
 }
 
 /** These flags replace those of .cargo/config.toml. */
-async function compile() {
+async function compile(feature, file) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
@@ -46,30 +59,33 @@ async function compile() {
     `--remap-path-prefix=${sysroot}=rust`,
     `--remap-path-prefix=${root}=`,
   ];
-  const args = ["build", "--lib", "--features", "wasm", "--target", target, "--profile", "wasm", "--target-dir", "target"];
+  const args = ["build", "--lib", "--features", feature, "--target", target, "--profile", "wasm", "--target-dir", "target"];
   await run("cargo", args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
+  mkdirSync(join(root, file, ".."), { recursive: true });
+  copyFileSync(join(root, `target/${target}/wasm/whither.wasm`), join(root, file));
 }
 
-function bindgen() {
+function bindgen(compiled, name) {
   const tool = ["run", "--quiet", "--package", "xtask", "--profile", "xtask", "--target-dir", "target", "--", "bindgen"];
   // The address of the file stays out of the code: bundlers would emit a second copy of it.
   const options = ["--target", "web", "--omit-default-module-path", "--remove-name-section", "--remove-producers-section"];
-  return run("cargo", [...tool, ...options, "--out-dir", generated, "--out-name", "whither", compiled]);
+  return run("cargo", [...tool, ...options, "--out-dir", generated, "--out-name", name, compiled]);
 }
 
-async function optimise() {
-  const file = `${generated}/whither_bg.wasm`;
+async function optimise(name) {
+  const file = `${generated}/${name}_bg.wasm`;
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = features.map((feature) => `--enable-${feature}`);
   await run("node", [tool, "-Oz", ...enabled, "--strip-debug", "--strip-target-features", file, "-o", file]);
 }
 
-function embed() {
-  const packed = gzipSync(readFileSync(join(root, generated, "whither_bg.wasm")), { level: constants.Z_BEST_COMPRESSION });
+function embed(name, bytes) {
+  const packed = gzipSync(readFileSync(join(root, generated, `${name}_bg.wasm`)), { level: constants.Z_BEST_COMPRESSION });
   packed[9] = 255; // the field of the header that names the operating system
-  const bytes = JSON.stringify(packed.toString("base64"));
-  writeFileSync(join(root, generated, "bytes.js"), `export const base64 = ${bytes};\n`);
-  writeFileSync(join(root, generated, "bytes.d.ts"), "/** whither.wasm, gzipped, in base64. */\nexport const base64: string;\n");
+  const base64 = JSON.stringify(packed.toString("base64"));
+  writeFileSync(join(root, generated, `${bytes}.js`), `export const base64 = ${base64};\n`);
+  const declaration = `/** ${name}.wasm, gzipped, in base64. */\nexport const base64: string;\n`;
+  writeFileSync(join(root, generated, `${bytes}.d.ts`), declaration);
 }
 
 await main(import.meta.url, async () => {

@@ -43,22 +43,43 @@ async function bundle() {
     legalComments: "none",
     plugins: [{ name: "own files", setup: keepApart }],
   });
-  await esbuild.build({ absWorkingDir: root, entryPoints: ["js/generated/bytes.js"], outfile: "dist/bytes.js" });
+  // What learns stands apart, but throws the same class of errors: it takes that from an entry without bytes.
+  await esbuild.build({
+    absWorkingDir: root,
+    entryPoints: ["js/study.ts"],
+    outdir: "dist",
+    bundle: true,
+    format: "esm",
+    target: "es2022",
+    minifySyntax: true,
+    minifyWhitespace: true,
+    legalComments: "none",
+    plugins: [{ name: "own files", setup: keepApart }, { name: "one class of errors", setup: shareErrors }],
+  });
+  for (const name of ["bytes", "study-bytes"]) {
+    await esbuild.build({ absWorkingDir: root, entryPoints: [`js/generated/${name}.js`], outfile: `dist/${name}.js` });
+  }
   const found = readdirSync(dist).sort().join(" ");
-  const expected = [...entries, "shared", "bytes"].map((name) => `${name}.js`).sort().join(" ");
+  const expected = [...entries, "shared", "bytes", "study", "study-bytes"].map((name) => `${name}.js`).sort().join(" ");
   if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
 }
 
 function keepApart({ onResolve }) {
-  onResolve({ filter: /\/generated\/bytes\.js$/ }, () => ({ path: "./bytes.js", external: true }));
+  for (const name of ["bytes", "study-bytes"]) {
+    onResolve({ filter: new RegExp(`/generated/${name}\\.js$`) }, () => ({ path: `./${name}.js`, external: true }));
+  }
   onResolve({ filter: /^\.\/whither\.wasm$/ }, () => ({ path: "./whither.wasm", external: true }));
+}
+
+function shareErrors({ onResolve }) {
+  onResolve({ filter: /(^|\/)error\.(js|ts)$/ }, () => ({ path: "./slim.js", external: true }));
 }
 
 /** The declarations, without what is not exported. */
 async function declare() {
   const { rollup } = await import("rollup");
   const { dts } = await import("rollup-plugin-dts");
-  const input = { index: "js/index.ts", slim: "js/slim.ts" };
+  const input = { index: "js/index.ts", slim: "js/slim.ts", study: "js/study.ts" };
   const bundle = await rollup({ input, plugins: [dts({ tsconfig: join(root, "tsconfig.json") })] });
   await bundle.write({
     dir: join(dist, "types"),

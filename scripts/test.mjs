@@ -15,9 +15,10 @@ const parts = {
     // with the packages that no test builds: the benchmark and what npm run evaluate and npm run reproduce start
     const packages = ["--workspace", "--exclude", "xtask"];
     await check("cargo", ["clippy", ...packages, "--all-targets", "--", "-D", "warnings"]);
-    await check("cargo", ["clippy", ...wasmTarget, "--features", "wasm", "--lib", "--", "-D", "warnings"]);
+    await check("cargo", ["clippy", ...wasmTarget, "--features", "wasm,wasm-fit", "--lib", "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
-    await tests("cargo", ["test"]);
+    await tests("cargo", ["test", "--package", "whither", "--features", "fit"]);
+    await tests("cargo", ["test", "--package", "evaluate"]);
   },
   async wasm() {
     // Without the feature: its classes import js/error.ts, which only the built package has. tests/js runs those.

@@ -100,7 +100,7 @@
 pub mod conditionally_markov;
 pub mod error;
 pub mod value;
-#[cfg(feature = "wasm")]
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 mod wasm;
 
 pub mod math;

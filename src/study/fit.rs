@@ -8,10 +8,9 @@
 use super::metrics::Score;
 use super::track::Track;
 use crate::error::{Code, Error, Result};
-use crate::likelihood::Method;
 use crate::predictor::Predictor;
-use crate::scenario::{Engine, Scenario};
-use crate::value::{Value, quote};
+use crate::scenario::Engine;
+use crate::value::{Node, Value, quote};
 use cobyla::{RhoBeg, StopTols, minimize};
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -60,7 +59,8 @@ pub struct Fitted {
 }
 
 /// Learns constants of `template` (a scenario; its destinations are replaced by each track's targets, each with the keys of
-/// `extra`). `progress` is called after every pass over the tracks; false ends the search with what it has.
+/// `extra`). `progress` is called after every pass over the tracks; false ends it all with the best so far, which is what half of the
+/// tracks say while the gain is still being found out.
 ///
 /// # Errors
 /// `out-of-range` with fewer than [`TRACKS_PER_CONSTANT`] usable tracks for each constant, and where a path is no number
@@ -89,13 +89,22 @@ pub fn fit(
     options: &Options,
     progress: &mut dyn FnMut(Progress) -> bool,
 ) -> Result<Fitted> {
-    let usable: Vec<&Track> = tracks.iter().filter(|track| track.approach().is_some()).collect();
-    let Some(first) = usable.first() else { return Err(too_few(0, 1)) };
-    let scenario = first.scenario(template, extra)?;
-    let paths = if options.constants.is_empty() { usual(&scenario)? } else { options.constants.clone() };
+    let paths = if options.constants.is_empty() { usual(template)? } else { options.constants.clone() };
+    let mut usable: Vec<&Track> = Vec::with_capacity(tracks.len());
+    for (k, track) in tracks.iter().enumerate() {
+        track.scenario(template, extra).map_err(|error| of_track(k, &error))?;
+        if track.approach().is_some() {
+            usable.push(track);
+        }
+    }
     let needed = TRACKS_PER_CONSTANT * paths.len();
     if usable.len() < needed {
-        return Err(too_few(usable.len(), needed));
+        let message = format!(
+            "must have at least {needed} tracks that enter their target, {TRACKS_PER_CONSTANT} for each of {} constants, has {}",
+            paths.len(),
+            usable.len()
+        );
+        return Err(Error::new(Code::OutOfRange, "tracks", message));
     }
     let before = paths.iter().map(|path| read(template, path)).collect::<Result<Vec<f64>>>()?;
     let search = Search { template, extra, paths: &paths, before: &before, evaluations: options.evaluations.max(1) };
@@ -109,35 +118,44 @@ pub fn fit(
         mine.map(|(_, track)| *track).collect()
     };
     let (train, test) = (side(0), side(1));
-    let partly = search.run(&train, [0.0, 1.0 / 3.0], progress)?;
+    let mut stopped = false;
+    let mut told = |state: Progress| {
+        stopped |= !progress(state);
+        !stopped
+    };
+    let partly = search.run(&train, [0.0, 1.0 / 3.0], &mut told)?;
     let ones = vec![1.0; paths.len()];
     let left_out = [search.loss(&test, &ones)?, search.loss(&test, &partly)?];
-    let factors = search.run(&usable, [1.0 / 3.0, 1.0], progress)?;
+    let factors = if stopped { partly } else { search.run(&usable, [1.0 / 3.0, 1.0], progress)? };
     let constants =
         paths.iter().zip(&before).zip(&factors).map(|((path, was), factor)| (path.clone(), *was, was * factor));
     Ok(Fitted { scenario: search.scenario(&factors)?, constants: constants.collect(), left_out, tracks: usable.len() })
 }
 
-fn too_few(found: usize, needed: usize) -> Error {
-    let message = format!("must have at least {needed} tracks that enter their target, has {found}");
-    Error::new(Code::OutOfRange, "tracks", message)
+/// An error of the scenario as the track numbered `k` makes it: what is wrong with its destinations is wrong with the track.
+fn of_track(k: usize, error: &Error) -> Error {
+    let path = match error.path().strip_prefix("destinations") {
+        Some(rest) => format!("tracks[{k}].targets{rest}"),
+        None => error.path().to_owned(),
+    };
+    Error::new(error.code(), path, error.message())
 }
 
 /// The constants that are usually worth learning.
-fn usual(scenario: &Scenario) -> Result<Vec<String>> {
-    let paths: &[&str] = match &scenario.engine {
-        Engine::Pointing(_) => &[
+fn usual(template: &Value) -> Result<Vec<String>> {
+    let paths: &[&str] = match Node::root(template, "").get("method").as_ref().map(Node::text).transpose()? {
+        Some("pointing") => &[
             "motion.noise",
             "pointing.alongNoise",
             "pointing.timeToGo.median",
             "pointing.direction.power",
             "pointing.power.to",
         ],
-        Engine::Papers { method: Method::SingleFilterApproximate, .. } => {
+        Some("singleFilterApproximate") => {
             let message = "must not be \"singleFilterApproximate\": its likelihoods are known up to a factor only";
             return Err(Error::new(Code::OutOfRange, "method", message));
         }
-        Engine::Papers { .. } => &["motion.noise", "observation.noise"],
+        _ => &["motion.noise", "observation.noise"],
     };
     Ok(paths.iter().map(|path| (*path).to_owned()).collect())
 }
@@ -312,9 +330,21 @@ mod tests {
         let mut random = Random::new(5);
         let tracks: Vec<Track> = (0..20).filter_map(|user| walk(&mut random, user)).take(7).collect();
         let error = fit(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
-        assert_eq!(error.to_string(), "tracks: must have at least 20 tracks that enter their target, has 7");
+        let needed = "tracks: must have at least 20 tracks that enter their target, 10 for each of 2 constants";
+        assert_eq!(error.to_string(), format!("{needed}, has 7"));
         let error = fit(&[], &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
-        assert_eq!(error.to_string(), "tracks: must have at least 1 tracks that enter their target, has 0");
+        assert_eq!(error.to_string(), format!("{needed}, has 0"));
+    }
+
+    #[test]
+    fn a_track_that_does_not_suit_the_scenario_is_named() {
+        let mut random = Random::new(5);
+        let mut tracks: Vec<Track> = (0..30).filter_map(|user| walk(&mut random, user)).collect();
+        tracks[4].targets[1].size = vec![40.0, -1.0];
+        let error = fit(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        assert_eq!(error.path(), "tracks[4].targets[1].size[1]");
+        let error = fit(&tracks, &Value::Null, &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        assert_eq!(error.to_string(), "a scenario must be an object");
     }
 
     #[test]
@@ -331,6 +361,6 @@ mod tests {
             false
         };
         fit(&tracks, &template(9.0), &Value::Null, &options, stop).unwrap();
-        assert_eq!(calls, 2, "one for each search");
+        assert_eq!(calls, 1, "no second search after the first was stopped");
     }
 }

@@ -5,17 +5,22 @@
 
 mod data;
 mod error;
+#[cfg(feature = "wasm-fit")]
+mod fit;
+#[cfg(feature = "wasm")]
 mod pointer;
+#[cfg(feature = "wasm")]
 mod predictor;
+#[cfg(feature = "wasm")]
 mod sequence;
 
-use crate::math::gaussian::Gaussian;
 use error::WhitherError;
 
 type Result<T> = std::result::Result<T, WhitherError>;
 
 /// The mean and behind it the covariance.
-fn flat(gaussian: Gaussian) -> Vec<f64> {
+#[cfg(feature = "wasm")]
+fn flat(gaussian: crate::math::gaussian::Gaussian) -> Vec<f64> {
     let mut flat = gaussian.mean.as_slice().to_vec();
     flat.extend(gaussian.covariance.iter());
     flat

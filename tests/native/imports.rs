@@ -18,7 +18,7 @@ const RUST: [(&str, &[&str]); 13] = [
     ("predictor", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
     ("snapshot", &["model", "likelihood", "posterior", "scenario", "predictor"]),
     ("study", &["math", "model", "likelihood", "scenario", "predictor", "snapshot", "study"]),
-    ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "wasm"]),
+    ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"]),
 ];
 
 /// Engines never import one another.
@@ -26,7 +26,7 @@ const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_obse
 
 /// Who may name the generated code and its one importer.
 const JAVASCRIPT: [(&str, &[&str]); 2] = [
-    ("./generated/", &["glue", "embedded"]),
+    ("./generated/", &["glue", "embedded", "study"]),
     ("./glue.js", &["index", "slim", "workerd", "exports", "predictor", "sequence", "pointer"]),
 ];
 

@@ -27,9 +27,13 @@ test("the package", async (t) => {
       "dist/index.js",
       "dist/shared.js",
       "dist/slim.js",
+      "dist/study-bytes.js",
+      "dist/study.js",
       "dist/types/index.d.ts",
       "dist/types/shared.d.ts",
+      "dist/types/shared2.d.ts",
       "dist/types/slim.d.ts",
+      "dist/types/study.d.ts",
       "dist/whither.wasm",
       "dist/workerd.js",
       "package.json",
@@ -63,7 +67,7 @@ test("the package", async (t) => {
   });
 
   await t.test("names no address of the WebAssembly, of which bundlers would make a second copy", () => {
-    for (const name of ["index", "shared", "slim"]) {
+    for (const name of ["index", "shared", "slim", "study"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /import\.meta\.url|whither_bg\.wasm/);
     }
   });

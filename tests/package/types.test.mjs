@@ -8,6 +8,7 @@ import { project, write } from "./support.mjs";
 const program = `
 import { init, initSync, pointerScenario, Predictor, WhitherError, type Scenario } from "whither";
 import { init as initSlim } from "whither/slim";
+import { fit, type Track } from "whither/study";
 
 const scenario: Scenario = {
   motion: { type: "constantVelocity", dimensions: 2, noise: 3000 },
@@ -39,6 +40,14 @@ export async function use(bytes: ArrayBuffer): Promise<string> {
 }
 
 new Predictor(pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }]));
+
+export async function learn(tracks: readonly Track[]): Promise<Scenario> {
+  const fitted = await fit(tracks, scenario, { constants: ["motion.noise"], progress: ({ share }) => share < 0.5 });
+  const gain: number = fitted.leftOut.before - fitted.leftOut.after;
+  return gain > 0 ? fitted.scenario : scenario;
+}
+// @ts-expect-error: a target is a place
+void learn([{ targets: [[0, 0, 1, 1]], target: "radio", samples: [[0, 1, 2]] }]);
 
 // @ts-expect-error: there is no such type of motion
 new Predictor({ ...scenario, motion: { type: "constantSpeed", dimensions: 2, noise: 1 } });

@@ -1,0 +1,51 @@
+//! What `js/study.ts` stands on.
+
+use super::{Result, data};
+use crate::study::fit::{self, Options, Progress};
+use crate::study::track::Track;
+use crate::value::{Node, Value};
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen]
+extern "C" {
+    /// Who is told how far a search has come; `js/study.ts` sees to it that it does not throw.
+    #[derive(Debug)]
+    pub type Listener;
+
+    #[wasm_bindgen(structural, method)]
+    fn tell(this: &Listener, share: f64, loss: f64) -> bool;
+}
+
+/// Learns constants from `{ tracks, scenario, constants?, evaluations?, destination? }`: the scenario with them, what they
+/// were and are, the mean loss on the tracks left out before and after, and how many tracks were used.
+#[wasm_bindgen]
+pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
+    let value = data::read(value)?;
+    let node = Node::root(&value, "");
+    let fields = node.fields(&["tracks", "scenario", "constants", "evaluations", "destination"])?;
+    let tracks =
+        fields.required("tracks")?.items()?.map(|track| Track::read(&track)).collect::<crate::Result<Vec<_>>>()?;
+    let scenario = fields.required("scenario")?;
+    let mut options = Options::default();
+    if let Some(constants) = fields.optional("constants") {
+        options.constants =
+            constants.items()?.map(|path| Ok(path.text()?.to_owned())).collect::<crate::Result<Vec<_>>>()?;
+    }
+    if let Some(evaluations) = fields.optional("evaluations") {
+        options.evaluations = evaluations.whole(1, 100_000)?;
+    }
+    let extra = fields.optional("destination").map_or(Value::Null, |destination| destination.value().clone());
+    let tell = &mut |progress: Progress| listener.tell(progress.share, progress.loss);
+    let fitted = fit::fit(&tracks, scenario.value(), &extra, &options, tell)?;
+    let constants = fitted.constants.iter().map(|(path, before, after)| {
+        Value::map([("path", Value::text(path)), ("before", Value::Number(*before)), ("after", Value::Number(*after))])
+    });
+    let [before, after] = fitted.left_out.map(Value::Number);
+    Ok(data::write(&Value::map([
+        ("constants", Value::List(constants.collect())),
+        ("leftOut", Value::map([("before", before), ("after", after)])),
+        ("tracks", Value::Number(fitted.tracks as f64)),
+        ("scenario", fitted.scenario),
+    ]))?)
+}
