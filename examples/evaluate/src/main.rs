@@ -12,18 +12,20 @@ mod methods;
 mod peers;
 mod reading;
 mod report;
+mod sweep;
+mod variants;
 
 use clap::Parser;
 use extras::{Answers, Sums};
 use foresight::Foresight;
-use indicatif::{ProgressBar, ProgressStyle};
 use methods::{Method, Template};
 use peers::Peer;
-use rayon::prelude::*;
 use report::{Results, Set};
+use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use variants::Variant;
 use whither::study::metrics::Score;
 
 /// Scores predictors on recorded movements.
@@ -52,6 +54,9 @@ struct Arguments {
     /// Only every n-th sample.
     #[arg(long, default_value_t = 1)]
     every: usize,
+    /// A table of other circumstances instead: few and many targets, small and wide ones, other sample rates and pixels.
+    #[arg(long)]
+    sweep: bool,
     /// Where to write the report as JSON.
     #[arg(long, default_value = "target/evaluate/report.json")]
     json: PathBuf,
@@ -74,6 +79,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     if arguments.every == 0 {
         return Err("--every must be at least 1".to_owned());
     }
+    if arguments.sweep {
+        return other_circumstances(arguments);
+    }
     let mut results = Results::default();
     let mut skipped = 0;
     let mut more = arguments.more.then(More::new).transpose()?;
@@ -93,6 +101,20 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let charts = chart::write(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
+}
+
+fn other_circumstances(arguments: &Arguments) -> Result<(), String> {
+    let template = Template::pointer()?.into_scenario();
+    let mut all = Vec::new();
+    let mut skipped = 0;
+    for file in &arguments.files {
+        skipped += sweep::run(&template, file, &mut all)?;
+    }
+    if skipped > 0 {
+        println!("{skipped} broken lines skipped, see above");
+    }
+    let sets: Vec<Json> = all.into_iter().map(|(set, rows)| json!({ "set": set, "rows": rows })).collect();
+    report::write(&arguments.json, &json!({ "sweep": sets }))
 }
 
 /// The further questions: the pointer's scenario, and the answers for each set.
@@ -135,36 +157,19 @@ fn evaluate(
     results: &mut Results,
     mut more: Option<&mut More>,
 ) -> Result<usize, String> {
-    let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let size = std::fs::metadata(file).map_err(|error| format!("{}: {error}", file.display()))?.len();
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}");
-    let bar = ProgressBar::new(size).with_style(style.map_err(|error| error.to_string())?).with_message(name.clone());
-    let mut skipped = 0;
+    let name = reading::name(file);
     let mut sets: Vec<Set> = Vec::new();
-    reading::in_batches(file, |lines, bytes| {
-        let scored: Vec<_> = {
-            let template = more.as_ref().map(|more| &more.template);
-            lines.par_iter().map(|line| score(arguments, line, methods, template)).collect()
-        };
-        for (line, scored) in lines.iter().zip(scored) {
-            match scored {
-                Ok(Some((part, user, scores, answers))) => {
-                    report::add(&mut sets, &name, part, methods, &user, &scores);
-                    if let (Some(more), Some(answers)) = (more.as_deref_mut(), answers) {
-                        more.sums.entry(format!("{name}{part}")).or_default().add(&answers);
-                    }
-                }
-                Ok(None) => {}
-                Err(message) => {
-                    skipped += 1;
-                    bar.suspend(|| eprintln!("{}:{}: {message}; skipped", file.display(), line.number));
-                }
+    let template = more.as_ref().map(|more| more.template.clone());
+    let skipped = reading::each(
+        file,
+        |line| score(arguments, line, methods, template.as_ref()),
+        |(part, user, scores, answers)| {
+            report::add(&mut sets, &name, part, methods, &user, &scores);
+            if let (Some(more), Some(answers)) = (more.as_deref_mut(), answers) {
+                more.sums.entry(format!("{name}{part}")).or_default().add(&answers);
             }
-        }
-        bar.set_position(bytes);
-        Ok(())
-    })?;
-    bar.finish_and_clear();
+        },
+    )?;
     results.sets.extend(sets);
     Ok(skipped)
 }
@@ -181,14 +186,7 @@ fn score(
     for target in &mut track.targets {
         target.size.iter_mut().for_each(|side| *side += arguments.margin);
     }
-    let Some(mut approach) = track.approach() else { return Ok(None) };
-    if arguments.every > 1 {
-        let last = approach - 1;
-        let mut kept: Vec<_> = track.samples[..last].iter().step_by(arguments.every).cloned().collect();
-        kept.push(track.samples[last].clone());
-        track.samples = kept;
-        approach = track.samples.len();
-    }
+    let Some((track, approach)) = Variant::Every(arguments.every).of(&track, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
     let more = more.filter(|_| track.dimensions() == 2);
     let answers = more.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;

@@ -7,6 +7,9 @@ use whither::study::track::{Target, Track, distance};
 const SAMPLES: [usize; 4] = [2, 3, 4, 8];
 const AHEAD: [f64; 4] = [0.03, 0.06, 0.12, 0.2];
 
+/// How far ahead for vessels and aircraft, whose samples lie seconds apart.
+const FAR_AHEAD: [f64; 4] = [60.0, 300.0, 1200.0, 3600.0];
+
 /// The rule of one other predictor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Peer {
@@ -28,7 +31,8 @@ pub enum Peer {
 impl Peer {
     /// All of them; extrapolation at every point of its grid.
     pub fn all() -> Vec<Self> {
-        let grid = SAMPLES.iter().flat_map(|&samples| AHEAD.map(|ahead| Self::Extrapolation { samples, ahead }));
+        let ahead = AHEAD.into_iter().chain(FAR_AHEAD);
+        let grid = ahead.flat_map(|ahead| SAMPLES.map(|samples| Self::Extrapolation { samples, ahead }));
         [Self::Nearest, Self::Bearing, Self::Intently, Self::Premonish].into_iter().chain(grid).collect()
     }
 
@@ -37,9 +41,10 @@ impl Peer {
         match self {
             Self::Nearest => "nearest".to_owned(),
             Self::Bearing => "bearing".to_owned(),
-            Self::Extrapolation { samples, ahead } => {
+            Self::Extrapolation { samples, ahead } if ahead < 1.0 => {
                 format!("extrapolation, {samples} samples, {} ms", 1000.0 * ahead)
             }
+            Self::Extrapolation { samples, ahead } => format!("extrapolation, {samples} samples, {ahead} s"),
             Self::Intently => "intently's rule".to_owned(),
             Self::Premonish => "premonish's rule".to_owned(),
         }
@@ -47,7 +52,14 @@ impl Peer {
 
     /// Whether its rule speaks of tracks like this one.
     pub fn applies(self, track: &Track) -> bool {
-        !matches!(self, Self::Intently | Self::Premonish) || track.dimensions() == 2
+        match self {
+            Self::Intently | Self::Premonish => track.dimensions() == 2,
+            Self::Extrapolation { ahead, .. } if ahead >= 1.0 => {
+                let duration = track.samples.last().zip(track.samples.first()).map_or(0.0, |(b, a)| b.time - a.time);
+                duration > track.samples.len() as f64
+            }
+            _ => true,
+        }
     }
 
     /// The target it bets on after each of the first `length` samples.
@@ -184,6 +196,15 @@ mod tests {
         assert_eq!(top(Peer::Extrapolation { samples: 3, ahead: 0.12 }), Some(2)); // 40 + 240
         assert_eq!(top(Peer::Premonish), Some(2)); // 40 + 100 * 9, clamped to 310
         assert_eq!(top(Peer::Intently), Some(1)); // trajectory 1 for both, the first counts
+    }
+
+    #[test]
+    fn far_ahead_is_for_slow_things() {
+        let far = Peer::Extrapolation { samples: 2, ahead: 60.0 };
+        assert!(!far.applies(&track("[[0, 0, 0], [0.01, 20, 0], [0.02, 40, 0]]")));
+        let vessel = track("[[0, 0, 0], [30, 20, 0], [60, 40, 0]]");
+        assert!(far.applies(&vessel) && Peer::Extrapolation { samples: 2, ahead: 0.2 }.applies(&vessel));
+        assert_eq!(far.tops(&vessel, 3)[2], Some(1)); // 40 + 40
     }
 
     #[test]

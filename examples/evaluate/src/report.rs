@@ -158,13 +158,17 @@ impl Results {
             .iter()
             .map(|set| json!({ "set": set.name, "methods": set.rows.iter().map(Row::json).collect::<Vec<_>>() }))
             .collect();
-        let text =
-            serde_json::to_string_pretty(&json!({ "sets": sets, "more": more })).map_err(|error| error.to_string())?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        }
-        std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+        write(path, &json!({ "sets": sets, "more": more }))
     }
+}
+
+/// Writes JSON, and the folders that it lies in.
+pub fn write(path: &Path, report: &Json) -> Result<(), String> {
+    let text = serde_json::to_string_pretty(report).map_err(|error| error.to_string())?;
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 fn print_users(row: &Row, at: &str) {
