@@ -15,6 +15,7 @@ const parts = [
   { name: "core: both", files: ["whither.wasm", "index.js", "shared.js"] },
   { name: "`whither`, the WebAssembly inside it", files: ["index.js", "shared.js", "bytes.js"] },
   { name: "`whither/slim` and its file", files: ["slim.js", "shared.js", "whither.wasm"] },
+  { name: "`whither/study`, beside it", files: ["study.js", "study-bytes.js", "shared.js"] },
 ];
 
 /** `{ name, raw, gzip, brotli }` in bytes for each part of the package that is in `dist`, each file packed by itself. */

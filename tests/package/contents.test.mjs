@@ -72,6 +72,14 @@ test("the package", async (t) => {
     }
   });
 
+  await t.test("carries what learns in whither/study alone", () => {
+    for (const name of ["index", "shared", "slim", "workerd"]) {
+      assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
+    }
+    const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);
+    assert.ok(!exported(read("dist/whither.wasm")).includes("fit"));
+  });
+
   await t.test("is as light as it was", (t) => {
     const rows = sizes(join(installed, "dist"));
     for (const { name, gzip } of rows) t.diagnostic(`${name}: ${gzip} bytes under gzip`);
