@@ -156,7 +156,15 @@ impl Score {
     /// # Errors
     /// Those of the predictor.
     pub fn of_scenario(track: &Track, approach: usize, scenario: &Scenario) -> Result<Self> {
-        let mut predictor = Predictor::new(scenario)?;
+        Self::of_predictor(track, approach, &mut Predictor::new(scenario)?)
+    }
+
+    /// The same for a predictor that stands at the beginning of a movement, among the track's targets: one that has learnt from
+    /// what was chosen before.
+    ///
+    /// # Errors
+    /// Those of the predictor.
+    pub fn of_predictor(track: &Track, approach: usize, predictor: &mut Predictor) -> Result<Self> {
         let mut predictions = Vec::with_capacity(approach);
         for sample in &track.samples[..approach.min(track.samples.len())] {
             predictor.observe(sample.time, &sample.position)?;

@@ -8,6 +8,8 @@
 mod chart;
 mod extras;
 mod foresight;
+mod habits;
+mod learning;
 mod methods;
 mod peers;
 mod reading;
@@ -32,10 +34,11 @@ use whither::study::metrics::Score;
 #[derive(Debug, Parser)]
 struct Arguments {
     /// Files of tracks, one JSON object a line.
-    #[arg(required = true)]
+    #[arg(required_unless_present = "habits")]
     files: Vec<PathBuf>,
-    /// Files of scenarios of your own, {"name", "scenario", "destination"?}: the scenario without its destinations, and
-    /// keys that each of them gets. Where examples/evaluate/scenarios has one of the same name as a track file, it is used.
+    /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?}: the scenario without its destinations,
+    /// keys that each of them gets, and what is added to their sizes where it is the track file's own. Where
+    /// examples/evaluate/scenarios has one of the same name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
     /// Ask the pointing model two more things: the time to the entry, and "none of them" with the target taken out of half of
@@ -48,15 +51,21 @@ struct Arguments {
     /// A table by user, too.
     #[arg(long)]
     users: bool,
-    /// Added to the size of every target, for a cursor that has a size itself.
-    #[arg(long, default_value_t = 0.0)]
-    margin: f64,
+    /// Added to the size of every target, for a cursor that has a size itself; else as the scenario of the file says.
+    #[arg(long)]
+    margin: Option<f64>,
     /// Only every n-th sample.
     #[arg(long, default_value_t = 1)]
     every: usize,
     /// A table of other circumstances instead: few and many targets, small and wide ones, other sample rates and pixels.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["fit", "habits"])]
     sweep: bool,
+    /// Instead, learn constants from half of the users, and from each user's own first movements, and score the rest.
+    #[arg(long, conflicts_with = "habits")]
+    fit: bool,
+    /// Instead, simulate users with habits, and tell what learning their habits gains.
+    #[arg(long, conflicts_with = "files")]
+    habits: bool,
     /// Where to write the report as JSON.
     #[arg(long, default_value = "target/evaluate/report.json")]
     json: PathBuf,
@@ -79,8 +88,16 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     if arguments.every == 0 {
         return Err("--every must be at least 1".to_owned());
     }
+    if arguments.habits {
+        return report::write(&arguments.json, &json!({ "habits": habits::run(&Template::pointer()?)? }));
+    }
     if arguments.sweep {
-        return other_circumstances(arguments);
+        return in_place_of_scores(arguments, "sweep", |file, into| {
+            sweep::run(&Template::pointer()?.scenario, file, into)
+        });
+    }
+    if arguments.fit {
+        return in_place_of_scores(arguments, "fit", |file, into| learning::run(&template_for(file)?, file, into));
     }
     let mut results = Results::default();
     let mut skipped = 0;
@@ -94,27 +111,34 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     results.print(arguments.users);
     let extras = more.map(|more| extras::report(&more.sums));
-    if skipped > 0 {
-        println!("{skipped} broken lines skipped, see above");
-    }
+    told_skipped(skipped);
     results.write_json(&arguments.json, extras)?;
     let charts = chart::write(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
 }
 
-fn other_circumstances(arguments: &Arguments) -> Result<(), String> {
-    let template = Template::pointer()?.into_scenario();
+/// Another table for each file, and what it says under `key` of the report.
+fn in_place_of_scores(
+    arguments: &Arguments,
+    key: &str,
+    run: impl Fn(&Path, &mut Vec<Json>) -> Result<usize, String>,
+) -> Result<(), String> {
     let mut all = Vec::new();
     let mut skipped = 0;
     for file in &arguments.files {
-        skipped += sweep::run(&template, file, &mut all)?;
+        skipped += run(file, &mut all)?;
     }
-    if skipped > 0 {
-        println!("{skipped} broken lines skipped, see above");
+    told_skipped(skipped);
+    report::write(&arguments.json, &json!({ key: all }))?;
+    println!("report: {}", arguments.json.display());
+    Ok(())
+}
+
+fn told_skipped(lines: usize) {
+    if lines > 0 {
+        println!("{lines} broken lines skipped, see above");
     }
-    let sets: Vec<Json> = all.into_iter().map(|(set, rows)| json!({ "set": set, "rows": rows })).collect();
-    report::write(&arguments.json, &json!({ "sweep": sets }))
 }
 
 /// The further questions: the pointer's scenario, and the answers for each set.
@@ -125,16 +149,19 @@ struct More {
 
 impl More {
     fn new() -> Result<Self, String> {
-        Ok(Self { template: Template::pointer()?.into_scenario(), sums: BTreeMap::new() })
+        Ok(Self { template: Template::pointer()?.scenario, sums: BTreeMap::new() })
     }
+}
+
+/// A file's own scenario, else the pointer's.
+fn template_for(file: &Path) -> Result<Template, String> {
+    Template::of(file)?.map_or_else(Template::pointer, Ok)
 }
 
 /// The methods for one file: its own scenario where there is one, else the pointer's; then those asked for; then peers.
 fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
-    let own = file.file_stem().map(|stem| folder.join(stem).with_extension("json")).filter(|path| path.exists());
-    let mut methods = match own {
-        Some(path) => vec![Method::ours(Template::read(&path)?)],
+    let mut methods = match Template::of(file)? {
+        Some(own) => vec![Method::ours(own)],
         None => vec![Method::ours(Template::pointer()?), Method::ours(Template::constant_velocity()?)],
     };
     for path in &arguments.scenario {
@@ -160,9 +187,10 @@ fn evaluate(
     let name = reading::name(file);
     let mut sets: Vec<Set> = Vec::new();
     let template = more.as_ref().map(|more| more.template.clone());
+    let margin = arguments.margin.map_or_else(|| template_for(file).map(|template| template.margin), Ok)?;
     let skipped = reading::each(
         file,
-        |line| score(arguments, line, methods, template.as_ref()),
+        |line| score(line, (margin, arguments.every), methods, template.as_ref()),
         |(part, user, scores, answers)| {
             report::add(&mut sets, &name, part, methods, &user, &scores);
             if let (Some(more), Some(answers)) = (more.as_deref_mut(), answers) {
@@ -177,16 +205,13 @@ fn evaluate(
 type Scored = (&'static str, String, Vec<Option<Score>>, Option<Answers>);
 
 fn score(
-    arguments: &Arguments,
     line: &reading::Line,
+    (margin, every): (f64, usize),
     methods: &[Method],
     more: Option<&whither::Value>,
 ) -> Result<Option<Scored>, String> {
-    let mut track = line.track()?;
-    for target in &mut track.targets {
-        target.size.iter_mut().for_each(|side| *side += arguments.margin);
-    }
-    let Some((track, approach)) = Variant::Every(arguments.every).of(&track, 0) else { return Ok(None) };
+    let track = line.track(margin)?;
+    let Some((track, approach)) = Variant::Every(every).of(&track, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
     let more = more.filter(|_| track.dimensions() == 2);
     let answers = more.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;

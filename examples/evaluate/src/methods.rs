@@ -23,16 +23,27 @@ enum Rule {
     Foresight(Foresight),
 }
 
-/// The keys that a scenario file may have beside the scenario's own: its name, and keys for each destination.
+/// What a scenario file says.
 #[derive(Debug)]
 pub struct Template {
     name: String,
-    scenario: Value,
-    extra: Value,
+    /// The scenario without its destinations.
+    pub scenario: Value,
+    /// Keys that each destination gets.
+    pub extra: Value,
+    /// Added to the size of every target, for a cursor that has a size itself.
+    pub margin: f64,
 }
 
 impl Template {
-    /// Reads `{ "name", "scenario", "destination"? }`.
+    /// For one file of tracks: the scenario of the same name in `examples/evaluate/scenarios`, where there is one.
+    pub fn of(file: &Path) -> Result<Option<Self>, String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+        let own = file.file_stem().map(|stem| folder.join(stem).with_extension("json")).filter(|path| path.exists());
+        own.map(|path| Self::read(&path)).transpose()
+    }
+
+    /// Reads `{ "name", "scenario", "destination"?, "margin"? }`.
     pub fn read(path: &Path) -> Result<Self, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Self::parse(&text).map_err(|error| format!("{}: {error}", path.display()))
@@ -41,12 +52,16 @@ impl Template {
     fn parse(text: &str) -> Result<Self, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let node = whither::value::Node::root(&value, "");
-        let fields = node.fields(&["name", "scenario", "destination"]).map_err(|error| error.to_string())?;
+        let fields = node.fields(&["name", "scenario", "destination", "margin"]).map_err(|error| error.to_string())?;
         let required = |key: &'static str| fields.required(key).map_err(|error| error.to_string());
         Ok(Self {
             name: required("name")?.text().map_err(|error| error.to_string())?.to_owned(),
             scenario: required("scenario")?.value().clone(),
             extra: fields.optional("destination").map_or(Value::Null, |extra| extra.value().clone()),
+            margin: fields
+                .optional("margin")
+                .map_or(Ok(0.0), |node| node.number())
+                .map_err(|error| error.to_string())?,
         })
     }
 
@@ -54,12 +69,12 @@ impl Template {
     pub fn pointer() -> Result<Self, String> {
         let any = PointerTarget { id: "any".to_owned(), x: 0.0, y: 0.0, width: 1.0, height: 1.0 };
         let scenario = pointer_scenario(&[any], PointerOptions::default()).map_err(|error| error.to_string())?;
-        Ok(Self { name: "whither, pointing model".to_owned(), scenario: scenario.to_value(), extra: Value::Null })
-    }
-
-    /// The scenario alone.
-    pub fn into_scenario(self) -> Value {
-        self.scenario
+        Ok(Self {
+            name: "whither, pointing model".to_owned(),
+            scenario: scenario.to_value(),
+            extra: Value::Null,
+            margin: 0.0,
+        })
     }
 
     /// The papers' exact method with constant velocity, as a pointer's user would set it.

@@ -3,9 +3,10 @@
 
 use whither::study::track::{Target, Track, distance};
 
-/// The grid of linear extrapolation: how many samples the velocity is taken over, and how far ahead, in seconds.
+/// The grid of linear extrapolation: how many samples the velocity is taken over, and how far ahead, in seconds. A hand in
+/// mid-air is at its best with the longest.
 const SAMPLES: [usize; 4] = [2, 3, 4, 8];
-const AHEAD: [f64; 4] = [0.03, 0.06, 0.12, 0.2];
+const AHEAD: [f64; 6] = [0.03, 0.06, 0.12, 0.2, 0.4, 0.6];
 
 /// How far ahead for vessels and aircraft, whose samples lie seconds apart.
 const FAR_AHEAD: [f64; 4] = [60.0, 300.0, 1200.0, 3600.0];

@@ -20,9 +20,11 @@ pub struct Line {
 }
 
 impl Line {
-    /// The track, or what is wrong with the line.
-    pub fn track(&self) -> Result<Track, String> {
-        serde_json::from_slice(&self.text).map_err(|error| error.to_string())
+    /// The track with `margin` added to the size of every target, or what is wrong with the line.
+    pub fn track(&self, margin: f64) -> Result<Track, String> {
+        let mut track: Track = serde_json::from_slice(&self.text).map_err(|error| error.to_string())?;
+        track.targets.iter_mut().flat_map(|target| &mut target.size).for_each(|side| *side += margin);
+        Ok(track)
     }
 
     /// What is wrong with it, and where.
@@ -119,7 +121,7 @@ mod tests {
         let mut good = 0;
         in_batches(&path, |lines, _| {
             for line in lines {
-                match line.track() {
+                match line.track(0.0) {
                     Ok(_) => good += 1,
                     Err(message) => found.push(line.broken(Path::new("tracks.jsonl"), &message)),
                 }
@@ -127,7 +129,7 @@ mod tests {
             Ok(())
         })
         .unwrap();
-        assert_eq!(each(&path, |line| line.track().map(Some), |_| ()), Ok(1), "one is skipped");
+        assert_eq!(each(&path, |line| line.track(0.0).map(Some), |_| ()), Ok(1), "one is skipped");
         std::fs::remove_file(path).unwrap();
         assert_eq!((good, found.len()), (2, 1), "{found:?}");
         found.remove(0)

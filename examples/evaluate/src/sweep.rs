@@ -23,7 +23,7 @@ struct Row {
 type Sets = BTreeMap<String, Vec<Row>>;
 
 /// Runs all variants of a file's tracks; gives how many broken lines were skipped.
-pub fn run(template: &Value, file: &Path, into: &mut Vec<(String, Json)>) -> Result<usize, String> {
+pub fn run(template: &Value, file: &Path, into: &mut Vec<Json>) -> Result<usize, String> {
     let mut sets = Sets::new();
     let name = reading::name(file);
     let skipped = reading::each(
@@ -39,7 +39,8 @@ pub fn run(template: &Value, file: &Path, into: &mut Vec<(String, Json)>) -> Res
     )?;
     for (set, rows) in &sets {
         print(set, rows);
-        into.push((set.clone(), Json::Array(ALL.iter().zip(rows).map(|(variant, row)| row.json(*variant)).collect())));
+        let rows: Vec<Json> = ALL.iter().zip(rows).map(|(variant, row)| row.json(*variant)).collect();
+        into.push(json!({ "set": set, "rows": rows }));
     }
     Ok(skipped)
 }
@@ -47,7 +48,7 @@ pub fn run(template: &Value, file: &Path, into: &mut Vec<(String, Json)>) -> Res
 type Scored = (&'static str, Vec<Option<Row>>);
 
 fn score(template: &Value, line: &Line) -> Result<Option<Scored>, String> {
-    let track = line.track()?;
+    let track = line.track(0.0)?;
     if track.dimensions() != 2 || track.approach().is_none() {
         return Ok(None);
     }
