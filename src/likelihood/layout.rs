@@ -8,6 +8,12 @@ use std::ops::Range;
 /// In [`Layout::order`], a place that only fills a block up.
 const NOBODY: u32 = u32::MAX;
 
+/// Some blocks of each axis; those of an axis that there is not are empty.
+fn part<'a>([x, y, z]: &'a [Vec<Block>; AXES], blocks: &Range<usize>) -> [&'a [Block]; AXES] {
+    let of = |list: &'a [Block]| list.get(blocks.clone()).unwrap_or_default();
+    [of(x), of(y), of(z)]
+}
+
 /// Where the destinations stand.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
@@ -80,15 +86,7 @@ impl Layout {
     /// The places of some blocks.
     #[must_use]
     pub fn places(&self, blocks: &Range<usize>, origin: [f64; AXES]) -> Places<'_> {
-        let of = |list: &'_ [Vec<Block>; AXES]| -> [Range<usize>; AXES] {
-            std::array::from_fn(|axis| if list[axis].is_empty() { 0..0 } else { blocks.clone() })
-        };
-        let (coordinates, variances) = (of(&self.coordinates), of(&self.variances));
-        Places {
-            coordinates: std::array::from_fn(|axis| &self.coordinates[axis][coordinates[axis].clone()]),
-            variances: std::array::from_fn(|axis| &self.variances[axis][variances[axis].clone()]),
-            origin,
-        }
+        Places { coordinates: part(&self.coordinates, blocks), variances: part(&self.variances, blocks), origin }
     }
 
     /// Takes what stands in the order of the arrays to the order of the destinations.

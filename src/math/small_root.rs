@@ -23,11 +23,14 @@ pub fn triangularise<const ROWS: usize, const COLUMNS: usize>(
     for i in 0..rows.min(ROWS) {
         let (upper, lower) = a.split_at_mut(i + 1);
         let row = &mut upper[i];
-        let norm = row[i..columns].iter().map(|x| x * x).sum::<f64>().sqrt();
         let pivot = row[i];
         let mut reflector = [0.0; COLUMNS];
-        reflector[i..columns].copy_from_slice(&row[i..columns]);
-        row[i..columns].fill(0.0);
+        let mut square = 0.0;
+        for q in i..columns {
+            square += row[q] * row[q];
+            (reflector[q], row[q]) = (row[q], 0.0);
+        }
+        let norm = square.sqrt();
         if norm < VANISHING {
             continue;
         }
@@ -36,8 +39,13 @@ pub fn triangularise<const ROWS: usize, const COLUMNS: usize>(
         reflector[i] = pivot - sign * norm;
         let scale = 1.0 / (norm * (norm + pivot.abs()));
         for row in &mut lower[..rows - i - 1] {
-            let dot = row.iter().zip(&reflector).map(|(x, r)| x * r).sum::<f64>() * scale;
-            row.iter_mut().zip(&reflector).for_each(|(x, r)| *x -= dot * r);
+            let mut dot = 0.0;
+            for q in i..columns {
+                dot += row[q] * reflector[q];
+            }
+            for q in i..columns {
+                row[q] -= dot * scale * reflector[q];
+            }
             row[i] *= sign;
         }
     }
@@ -73,7 +81,10 @@ pub fn condition<const SIZE: usize>(
         }
         deviation = total;
     }
-    (leaning.map(|lean| lean / deviation), deviation * deviation)
+    for lean in &mut leaning {
+        *lean /= deviation;
+    }
+    (leaning, deviation * deviation)
 }
 
 #[cfg(test)]

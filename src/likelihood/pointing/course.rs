@@ -49,14 +49,20 @@ impl Axis {
 
     /// The covariance of the state now, from the root.
     fn square(&mut self) {
-        let entry = |i: usize, j: usize| (0..=i.min(j)).map(|q| self.root[i][q] * self.root[j][q]).sum::<f64>();
-        self.covariance = [entry(2, 2), entry(2, 3), entry(3, 3)];
+        let [_, _, p, v] = &self.root;
+        self.covariance = [
+            p[0] * p[0] + p[1] * p[1] + p[2] * p[2],
+            p[0] * v[0] + p[1] * v[1] + p[2] * v[2],
+            v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3],
+        ];
     }
 
     fn predict(&mut self, step: f64, noise: f64) {
         self.position += step * self.velocity;
         let velocity = self.root[3];
-        self.root[2].iter_mut().zip(velocity).for_each(|(position, velocity)| *position += step * velocity);
+        for q in 0..4 {
+            self.root[2][q] += step * velocity[q];
+        }
         // beside what the state now has of its own, a root of the noise: the integral of white noise over the step
         let scale = (noise * step).sqrt();
         let third = step / 3f64.sqrt();
@@ -65,8 +71,8 @@ impl Axis {
             [velocity[2], velocity[3], scale * 0.75f64.sqrt(), scale * 0.5],
         ];
         triangularise(&mut own, 2, 4);
-        for (row, own) in self.root[2..].iter_mut().zip(own) {
-            row[2..].copy_from_slice(&own[..2]);
+        for (i, own) in own.iter().enumerate() {
+            (self.root[2 + i][2], self.root[2 + i][3]) = (own[0], own[1]);
         }
         self.square();
     }
@@ -74,11 +80,10 @@ impl Axis {
     fn correct(&mut self, observed: f64, variance: f64) {
         let error = observed - self.position;
         let (gain, _) = condition(&mut self.root, 4, 2, variance);
-        let moved = gain.map(|gain| gain * error);
-        self.first[0] += moved[0];
-        self.first[1] += moved[1];
-        self.position += moved[2];
-        self.velocity += moved[3];
+        self.first[0] += gain[0] * error;
+        self.first[1] += gain[1] * error;
+        self.position += gain[2] * error;
+        self.velocity += gain[3] * error;
         self.square();
     }
 }
@@ -134,13 +139,15 @@ impl Course {
     /// The position now.
     #[must_use]
     pub fn position(&self) -> Vector {
-        self.axes.map(|axis| axis.position)
+        let [x, y, z] = &self.axes;
+        [x.position, y.position, z.position]
     }
 
     /// The velocity now.
     #[must_use]
     pub fn velocity(&self) -> Vector {
-        self.axes.map(|axis| axis.velocity)
+        let [x, y, z] = &self.axes;
+        [x.velocity, y.velocity, z.velocity]
     }
 
     /// The speed now.

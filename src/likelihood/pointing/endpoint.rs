@@ -60,14 +60,15 @@ impl Nodes {
         self.pairs.clear();
         for scale in &parameters.scales {
             let noise = [scale * scale + across * speed * speed, along - across];
-            self.pairs.extend(self.times.iter().zip(&self.weights).map(|(&time, weight)| {
+            for (&time, weight) in self.times.iter().zip(&self.weights) {
                 let mut covariance = spread(&noise, &velocity, time * time * time / 3.0);
-                for (axis, place) in course.axes.iter().zip([0, 2, 5]) {
+                for (axis, place) in course.axes.iter().zip(&[0, 2, 5]) {
                     let [pp, pv, vv] = axis.covariance;
-                    covariance[place] += pp + 2.0 * time * pv + time * time * vv;
+                    covariance[*place] += pp + 2.0 * time * pv + time * time * vv;
                 }
-                Pair { time, noise, weight: weight * each, mean: velocity.map(|v| v * time), covariance }
-            }));
+                let mean = [velocity[0] * time, velocity[1] * time, velocity[2] * time];
+                self.pairs.push(Pair { time, noise, weight: weight * each, mean, covariance });
+            }
         }
     }
 
@@ -110,37 +111,39 @@ impl Nodes {
     pub fn ellipsoids(&self, own: &Symmetric, into: &mut Vec<Ellipsoid>) {
         let normaliser = normaliser(self.dimensions);
         into.clear();
-        into.extend(self.pairs.iter().map(|pair| {
+        for pair in &self.pairs {
             let (precision, determinant) = inverse(&sum(&pair.covariance, own), self.dimensions);
-            let [xx, xy, yy, xz, yz, zz] = precision.map(|entry| -HALF_LOG2_E * entry);
-            Ellipsoid {
+            let [xx, xy, yy, xz, yz, zz] = precision;
+            let (half, whole) = (-HALF_LOG2_E, -2.0 * HALF_LOG2_E);
+            into.push(Ellipsoid {
                 center: self.end(pair),
-                curvature: [[xx, xy + xy, xz + xz], [0.0, yy, yz + yz], [0.0, 0.0, zz]],
+                curvature: [[half * xx, whole * xy, whole * xz], [0.0, half * yy, whole * yz], [0.0, 0.0, half * zz]],
                 slope: [0.0; 3],
                 constant: 0.0,
                 factor: pair.weight * normaliser / determinant.sqrt(),
-            }
-        }));
+            });
+        }
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have each its own variances.
     pub fn densities(&self, into: &mut Vec<Density>) {
         let normaliser = normaliser(self.dimensions);
         into.clear();
-        into.extend(self.pairs.iter().map(|pair| {
+        for pair in &self.pairs {
             let [xx, xy, yy, xz, yz, zz] = pair.covariance;
-            Density {
+            into.push(Density {
                 mean: self.end(pair),
                 variance: [xx, yy, zz],
                 covariance: [xy, xz, yz],
                 factor: pair.weight * normaliser,
-            }
-        }));
+            });
+        }
     }
 
     /// Where the movement would end.
     fn end(&self, pair: &Pair) -> Vector {
-        std::array::from_fn(|k| self.position[k] + pair.mean[k])
+        let ([x, y, z], [a, b, c]) = (&self.position, &pair.mean);
+        [x + a, y + b, z + c]
     }
 }
 
@@ -150,14 +153,14 @@ fn normaliser(dimensions: usize) -> f64 {
 }
 
 fn sum(a: &Symmetric, b: &Symmetric) -> Symmetric {
-    std::array::from_fn(|k| a[k] + b[k])
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]]
 }
 
 /// `(noise[0] I + noise[1] v v') factor`: the noise of a movement, wider along the velocity than across it.
 #[must_use]
 pub fn spread(noise: &[f64; 2], velocity: &Vector, factor: f64) -> Symmetric {
     let [x, y, z] = *velocity;
-    let [even, along] = noise.map(|n| n * factor);
+    let (even, along) = (noise[0] * factor, noise[1] * factor);
     [even + along * x * x, along * x * y, even + along * y * y, along * x * z, along * y * z, even + along * z * z]
 }
 
@@ -188,7 +191,9 @@ pub fn inverse(matrix: &Symmetric, dimensions: usize) -> (Symmetric, f64) {
                 xx * yy - xy * xy,
             ];
             let determinant = xx * minors[0] + xy * minors[1] + xz * minors[3];
-            (minors.map(|minor| minor / determinant), determinant)
+            let [a, b, c, d, e, f] = minors;
+            let by = determinant;
+            ([a / by, b / by, c / by, d / by, e / by, f / by], determinant)
         }
     }
 }

@@ -60,7 +60,8 @@ impl<'a> DirectionNow<'a> {
     #[must_use]
     pub fn unit(&self) -> Vector {
         let net = dot(&self.way, &self.way).sqrt();
-        self.way.map(|x| if net > 0.0 { x / net } else { 0.0 })
+        let [x, y, z] = self.way;
+        if net > 0.0 { [x / net, y / net, z / net] } else { [0.0; 3] }
     }
 
     /// The square of the angle beyond which nothing is lost any more.

@@ -65,7 +65,10 @@ impl Candidate {
     /// The position now.
     pub fn position(&self) -> [f64; AXES] {
         match &self.source {
-            Source::Separable { now, .. } => now.filters.map(|filter| filter.mean[0]),
+            Source::Separable { now, .. } => {
+                let [x, y, z] = &now.filters;
+                [x.mean[0], y.mean[0], z.mean[0]]
+            }
             Source::Coupled(coupled) => {
                 let s = coupled.filter.states;
                 std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })

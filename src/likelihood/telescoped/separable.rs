@@ -47,15 +47,14 @@ impl AxisFilter {
         self.states
     }
 
-    fn components(&self) -> impl Iterator<Item = usize> + use<> {
-        let states = self.states;
-        (0..states).chain(MOST..MOST + states)
-    }
-
     fn predict_mean(&mut self, step: &AxisTransition) {
         let before = self.mean;
         for i in 0..self.states {
-            self.mean[i] = step.offset[i] + (0..self.states).map(|j| step.transition[i][j] * before[j]).sum::<f64>();
+            let mut moved = 0.0;
+            for j in 0..self.states {
+                moved += step.transition[i][j] * before[j];
+            }
+            self.mean[i] = step.offset[i] + moved;
         }
     }
 
@@ -65,16 +64,22 @@ impl AxisFilter {
         // what the state now has of its own, and the noise beside it
         let mut own = [[0.0; PAIR]; MOST];
         for i in 0..s {
-            let moved = |q: usize| (0..s).map(|m| step.transition[i][m] * before[s + m][q]).sum::<f64>();
             for q in 0..s {
-                self.root[s + i][q] = moved(q);
-                own[i][q] = moved(s + q);
+                let [mut first, mut now] = [0.0; 2];
+                for m in 0..s {
+                    first += step.transition[i][m] * before[s + m][q];
+                    now += step.transition[i][m] * before[s + m][s + q];
+                }
+                self.root[s + i][q] = first;
+                own[i][q] = now;
                 own[i][s + q] = noise[i][q];
             }
         }
         triangularise(&mut own, s, 2 * s);
         for i in 0..s {
-            self.root[s + i][s..2 * s].copy_from_slice(&own[i][..s]);
+            for q in 0..s {
+                self.root[s + i][s + q] = own[i][q];
+            }
         }
         self.square();
     }
@@ -94,7 +99,10 @@ impl AxisFilter {
         let s = self.states;
         for i in 0..s {
             for j in 0..=i {
-                let entry = (0..=s + j).map(|q| self.root[s + i][q] * self.root[s + j][q]).sum();
+                let mut entry = 0.0;
+                for q in 0..s + j + 1 {
+                    entry += self.root[s + i][q] * self.root[s + j][q];
+                }
                 self.covariance[i][j] = entry;
                 self.covariance[j][i] = entry;
             }
@@ -103,8 +111,9 @@ impl AxisFilter {
 
     fn correct_mean(&mut self, correction: &Correction, position: f64) -> f64 {
         let error = position - self.mean[0];
-        for i in self.components() {
+        for i in 0..self.states {
             self.mean[i] += correction.gain[i] * error;
+            self.mean[MOST + i] += correction.gain[MOST + i] * error;
         }
         error
     }
@@ -114,13 +123,19 @@ impl AxisFilter {
 fn root(p: &[[f64; MOST]; MOST], s: usize) -> [[f64; MOST]; MOST] {
     let mut root = [[0.0; MOST]; MOST];
     for j in 0..s {
-        let dot = |i: usize, root: &[[f64; MOST]; MOST]| (0..j).map(|q| root[i][q] * root[j][q]).sum::<f64>();
-        let pivot = p[j][j] - dot(j, &root);
-        if pivot > 4.0 * f64::EPSILON * p[j][j] {
-            let diagonal = pivot.sqrt();
-            root[j][j] = diagonal;
-            for i in j + 1..s {
-                root[i][j] = (p[i][j] - dot(i, &root)) / diagonal;
+        let mut diagonal = 0.0;
+        for i in j..s {
+            let mut left = p[i][j];
+            for q in 0..j {
+                left -= root[i][q] * root[j][q];
+            }
+            if i > j {
+                root[i][j] = left / diagonal;
+            } else if left > 4.0 * f64::EPSILON * p[j][j] {
+                diagonal = left.sqrt();
+                root[j][j] = diagonal;
+            } else {
+                break;
             }
         }
     }
@@ -228,6 +243,13 @@ pub struct AxisEnd {
     pub covariance: [[f64; MOST]; MOST],
 }
 
+impl AxisEnd {
+    /// Whether it differs from another in the means alone.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self.length == other.length && self.covariance == other.covariance
+    }
+}
+
 /// Transitions of one axis over the times to go of all nodes, eight nodes in a block.
 #[derive(Clone, Debug, Default)]
 pub struct NodeTable {
@@ -298,55 +320,60 @@ pub struct Ends {
 /// component to the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
-    gain: [[Lanes; MOST]; MOST],
+    /// The rows below the diagonal, one after the other.
+    gain: [Lanes; MOST * (MOST - 1) / 2],
     inverse: [Lanes; MOST],
     variance: Lanes,
     density: Lanes,
 }
 
 impl Spread {
+    /// One to be filled.
+    pub fn empty() -> Self {
+        let zero = Lanes::splat(0.0);
+        Self { gain: [zero; MOST * (MOST - 1) / 2], inverse: [zero; MOST], variance: zero, density: zero }
+    }
+
     /// For block `b` of a table, the covariance now and the endpoint.
     #[inline(never)]
-    pub fn new(table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Self {
+    pub fn see(&mut self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let (s, length) = (table.states, end.length);
-        let mut spread = Self { gain: [[zero; MOST]; MOST], inverse: [zero; MOST], variance: zero, density: one };
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
         let mut covariance = [[zero; MOST]; MOST];
-        let mut transitions = [[zero; MOST]; MOST];
+        // where the rows before begin
+        let mut places = [0; MOST];
         let mut place = 0;
         for i in 0..length {
-            for (j, entry) in transitions[i][..s].iter_mut().enumerate() {
-                *entry = Lanes::load(&rows[place + j]);
-            }
-            for j in 0..=i {
+            places[i] = place;
+            for j in 0..i + 1 {
                 covariance[i][j] = Lanes::load(&rows[place + s + 1 + j]) + Lanes::splat(end.covariance[i][j]);
             }
-            place += s + 2 + i;
             for m in 0..s {
                 let mut product = zero;
-                for (j, entry) in transitions[i][..s].iter().enumerate() {
-                    product = product + *entry * Lanes::splat(filter.covariance[j][m]);
+                for j in 0..s {
+                    product = product + Lanes::load(&rows[place + j]) * Lanes::splat(filter.covariance[j][m]);
                 }
-                for j in 0..=i {
-                    covariance[i][j] = covariance[i][j] + product * transitions[j][m];
+                for j in 0..i + 1 {
+                    covariance[i][j] = covariance[i][j] + product * Lanes::load(&rows[places[j] + m]);
                 }
             }
+            place += s + 2 + i;
         }
+        self.density = one;
         for r in (1..length).rev() {
             let inverse = one / covariance[r][r];
-            spread.inverse[r] = inverse;
-            spread.density = spread.density * inverse;
+            self.inverse[r] = inverse;
+            self.density = self.density * inverse;
             for i in 0..r {
                 let gain = covariance[r][i] * inverse;
-                spread.gain[r][i] = gain;
-                for j in 0..=i {
+                self.gain[r * (r - 1) / 2 + i] = gain;
+                for j in 0..i + 1 {
                     covariance[i][j] = covariance[i][j] - gain * covariance[r][j];
                 }
             }
         }
-        spread.variance = covariance[0][0];
-        spread
+        self.variance = covariance[0][0];
     }
 
     /// The ends of an axis with this spread.
@@ -356,11 +383,12 @@ impl Spread {
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
         let mut mean = [Lanes::splat(0.0); MOST];
         let mut place = 0;
-        for (i, entry) in mean[..length].iter_mut().enumerate() {
-            *entry = Lanes::load(&rows[place + s]);
+        for i in 0..length {
+            let mut entry = Lanes::load(&rows[place + s]);
             for j in 0..s {
-                *entry = *entry + Lanes::load(&rows[place + j]) * Lanes::splat(filter.mean[j]);
+                entry = entry + Lanes::load(&rows[place + j]) * Lanes::splat(filter.mean[j]);
             }
+            mean[i] = entry;
             place += s + 2 + i;
         }
         let mut exponent = Lanes::splat(0.0);
@@ -368,7 +396,7 @@ impl Spread {
             let error = Lanes::splat(end.mean[r]) - mean[r];
             exponent = exponent - Lanes::splat(HALF_LOG2_E) * (error * error * self.inverse[r]);
             for i in 0..r {
-                mean[i] = mean[i] + self.gain[r][i] * error;
+                mean[i] = mean[i] + self.gain[r * (r - 1) / 2 + i] * error;
             }
         }
         Ends { mean: mean[0], variance: self.variance, density: self.density, exponent }

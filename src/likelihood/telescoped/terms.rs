@@ -32,6 +32,21 @@ struct EndBlock {
 
 const ZERO: Block = [0.0; WIDTH];
 
+const EMPTY: EndBlock = EndBlock {
+    mean: [ZERO; AXES],
+    variance: [ZERO; AXES],
+    start_mean: [ZERO; AXES],
+    start_variance: [ZERO; AXES],
+    factor: ZERO,
+    constant: ZERO,
+};
+
+/// One lane of each axis. The maps of arrays stay calls for each element at the level for size, and so do closures.
+#[inline(always)]
+fn at(blocks: &[Block; AXES], lane: usize) -> [f64; AXES] {
+    [blocks[0][lane], blocks[1][lane], blocks[2][lane]]
+}
+
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
@@ -75,32 +90,28 @@ impl Work {
     #[inline(never)]
     pub fn see(&mut self, sight: &Sight<'_>, axes: &[AxisEnd; MOST]) {
         let (now, start) = (sight.now, sight.start);
-        let alike: [bool; MOST] = std::array::from_fn(|k| {
-            now.shares(k) && start.shares(k) && axes[k] == AxisEnd { mean: axes[k].mean, ..axes[0] }
-        });
-        self.round &= alike[..now.dimensions].iter().all(|alike| *alike);
+        let mut alike = [true; MOST];
+        for k in 1..now.dimensions {
+            alike[k] = now.shares(k) && start.shares(k) && axes[k].is_alike(&axes[0]);
+            self.round &= alike[k];
+        }
+        let [mut first, mut first_start, mut own, mut own_start] = [Spread::empty(); 4];
         for (b, weights) in sight.weights.iter().enumerate() {
-            let mut ends = EndBlock {
-                mean: [ZERO; AXES],
-                variance: [ZERO; AXES],
-                start_mean: [ZERO; AXES],
-                start_variance: [ZERO; AXES],
-                factor: ZERO,
-                constant: ZERO,
-            };
+            self.ends.push(EMPTY);
+            let Some(ends) = self.ends.last_mut() else { return };
             let mut exponent = Lanes::splat(sight.lead);
             let mut density = Lanes::splat(1.0);
             let mut start_density = Lanes::splat(1.0);
-            let mut spreads = None;
             for axis in 0..now.dimensions {
                 let of = if now.alike[axis] { 0 } else { axis };
                 let (table, start_table) = (&sight.tables[of], &sight.start_tables[of]);
                 let (filter, start_filter, end) = (&now.filters[axis], &start.filters[axis], &axes[axis]);
-                let (spread, start_spread) = match spreads {
-                    Some(spreads) if alike[axis] => spreads,
-                    _ => (Spread::new(table, b, filter, end), Spread::new(start_table, b, start_filter, end)),
-                };
-                spreads = spreads.or(Some((spread, start_spread)));
+                let (spread, start_spread) =
+                    if alike[axis] { (&mut first, &mut first_start) } else { (&mut own, &mut own_start) };
+                if axis == 0 || !alike[axis] {
+                    spread.see(table, b, filter, end);
+                    start_spread.see(start_table, b, start_filter, end);
+                }
                 let there = spread.ends(table, b, filter, end);
                 let from_start = start_spread.ends(start_table, b, start_filter, end);
                 there.mean.store(&mut ends.mean[axis]);
@@ -114,7 +125,6 @@ impl Work {
             (Lanes::splat(sight.weight) * Lanes::load(weights) * (density / start_density).sqrt())
                 .store(&mut ends.factor);
             exponent.store(&mut ends.constant);
-            self.ends.push(ends);
         }
     }
 
@@ -167,16 +177,17 @@ impl Work {
     fn owns(&mut self) {
         self.owns.clear();
         for ends in &self.ends {
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
-                let of = |blocks: &[Block; AXES]| blocks.map(|block| block[lane]);
-                self.owns.push(Own {
-                    mean: of(&ends.mean),
-                    variance: of(&ends.variance),
-                    start_mean: of(&ends.start_mean),
-                    start_variance: of(&ends.start_variance),
-                    constant: ends.constant[lane],
-                    factor: ends.factor[lane],
-                });
+            for lane in 0..WIDTH {
+                if ends.factor[lane] > 0.0 {
+                    self.owns.push(Own {
+                        mean: at(&ends.mean, lane),
+                        variance: at(&ends.variance, lane),
+                        start_mean: at(&ends.start_mean, lane),
+                        start_variance: at(&ends.start_variance, lane),
+                        constant: ends.constant[lane],
+                        factor: ends.factor[lane],
+                    });
+                }
             }
         }
     }
@@ -213,16 +224,18 @@ impl Work {
             (Lanes::load(&ends.constant) + half * (start_squares - squares)).store(&mut constant);
             (Lanes::load(&ends.factor) * factor).store(&mut factors);
             (half * squares.at_least(start_squares)).store(&mut bits);
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
-                if bits[lane] > MOST_BITS {
-                    return false;
+            for lane in 0..WIDTH {
+                if ends.factor[lane] > 0.0 {
+                    if bits[lane] > MOST_BITS {
+                        return false;
+                    }
+                    self.balls.push(Ball {
+                        curvature: curvature[lane],
+                        slope: at(&slope, lane),
+                        constant: constant[lane],
+                        factor: factors[lane],
+                    });
                 }
-                self.balls.push(Ball {
-                    curvature: curvature[lane],
-                    slope: slope.map(|block| block[lane]),
-                    constant: constant[lane],
-                    factor: factors[lane],
-                });
             }
         }
         true
@@ -253,15 +266,17 @@ impl Work {
             let [mut constants, mut factors] = [ZERO; 2];
             constant.store(&mut constants);
             (Lanes::load(&ends.factor) * ratio.sqrt()).store(&mut factors);
-            for lane in (0..WIDTH).filter(|&lane| ends.factor[lane] > 0.0) {
-                let diagonal = |i: usize, j: usize| if i == j { curvature[i][lane] } else { 0.0 };
-                self.ellipsoids.push(Ellipsoid {
-                    center: ends.mean.map(|block| block[lane]),
-                    curvature: std::array::from_fn(|i| std::array::from_fn(|j| diagonal(i, j))),
-                    slope: slope.map(|block| block[lane]),
-                    constant: constants[lane],
-                    factor: factors[lane],
-                });
+            for lane in 0..WIDTH {
+                if ends.factor[lane] > 0.0 {
+                    let [xx, yy, zz] = at(&curvature, lane);
+                    self.ellipsoids.push(Ellipsoid {
+                        center: at(&ends.mean, lane),
+                        curvature: [[xx, 0.0, 0.0], [0.0, yy, 0.0], [0.0, 0.0, zz]],
+                        slope: at(&slope, lane),
+                        constant: constants[lane],
+                        factor: factors[lane],
+                    });
+                }
             }
         }
     }
