@@ -104,7 +104,7 @@ impl Predictor {
     /// # Errors
     /// None for a scenario that was read; the signature leaves room for limits of the machine.
     pub fn new(scenario: &Scenario) -> Result<Self> {
-        Ok(Self::with_track(Arc::new(scenario.clone()), Arc::new(scenario.destinations.clone()), None))
+        Ok(Self::with_track(Arc::new(scenario.clone()), Arc::clone(&scenario.destinations), None))
     }
 
     pub(crate) fn with_track(scenario: Arc<Scenario>, destinations: Arc<Destinations>, track: Option<Track>) -> Self {
@@ -248,8 +248,9 @@ impl Predictor {
     /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates.
     pub fn log_likelihoods(&mut self) -> &[f64] {
         self.refresh();
-        if let Some(track) = &mut self.track {
-            track.log_likelihoods(&mut self.posterior, &self.destinations);
+        match &mut self.track {
+            Some(track) => track.log_likelihoods(&mut self.posterior, &self.destinations),
+            None => self.posterior.log_likelihoods.resize(self.destinations.len(), 0.0),
         }
         &self.posterior.log_likelihoods
     }

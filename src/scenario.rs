@@ -75,7 +75,7 @@ pub struct Scenario {
     /// How the destinations' priors are learnt from what is chosen, where they are.
     pub learning: Option<Learning>,
     /// Where it may be going.
-    pub destinations: Destinations,
+    pub destinations: Arc<Destinations>,
 }
 
 /// Which predictor, and what only it needs.
@@ -120,7 +120,7 @@ impl Scenario {
         let engine = Engine::read(&fields, &motion, &observation, &initial)?;
         let none = fields.optional("none").map_or(Ok(0.0), |none| none.number())?;
         let learning = fields.optional("learning").map(|learning| Learning::read(&learning)).transpose()?;
-        let destinations = Destinations::read(&fields.required("destinations")?, d, s)?;
+        let destinations = Arc::new(Destinations::read(&fields.required("destinations")?, d, s)?);
         let scenario = Self { motion, observation, initial, engine, none, learning, destinations };
         scenario.check()?;
         scenario.check_destinations(&scenario.destinations)?;

@@ -75,7 +75,7 @@ impl Predictor {
     fn read_body(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["scenario", "habits", "track"])?;
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
-        let destinations = Arc::new(scenario.destinations.clone());
+        let destinations = Arc::clone(&scenario.destinations);
         let load = |track: Node<'_>| Track::load(&track, &scenario, &destinations);
         let track = fields.optional("track").map(load).transpose()?;
         let mut predictor = Self::with_track(scenario, destinations, track);

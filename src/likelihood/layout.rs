@@ -19,9 +19,9 @@ fn part<'a>([x, y, z]: &'a [Vec<Block>; AXES], blocks: &Range<usize>) -> [&'a [B
 pub struct Layout {
     coordinates: [Vec<Block>; AXES],
     variances: [Vec<Block>; AXES],
-    /// Which destination stands where.
+    /// Which destination stands where; empty where they stand in their own order.
     order: Vec<u32>,
-    in_order: bool,
+    blocks: usize,
     count: usize,
     own_variances: bool,
 }
@@ -30,51 +30,59 @@ impl Layout {
     /// Forgets all destinations and keeps the room.
     pub fn clear(&mut self) {
         self.order.clear();
+        self.blocks = 0;
         self.coordinates.iter_mut().chain(&mut self.variances).for_each(Vec::clear);
         self.own_variances = false;
     }
 
     /// Puts destinations after those that are there and tells where they stand; `own` is whether each has its own variances.
     pub fn place(&mut self, destinations: &Destinations, members: &[u32], own: bool) -> Range<usize> {
-        let start = self.blocks();
+        let start = self.blocks;
+        self.blocks += members.len().div_ceil(WIDTH);
         self.own_variances |= own && !members.is_empty();
         for chunk in members.chunks(WIDTH) {
             // a block is filled up with its first destination, at no weight
             let member = |lane: usize| *chunk.get(lane).unwrap_or(&chunk[0]) as usize;
             for axis in 0..destinations.dimensions() {
                 self.coordinates[axis].push(std::array::from_fn(|lane| destinations.center(member(lane))[axis]));
-                let variance = |lane: usize| destinations.kind(member(lane)).covariance[(axis, axis)];
-                self.variances[axis].push(std::array::from_fn(variance));
             }
             self.order.extend((0..WIDTH).map(|lane| chunk.get(lane).copied().unwrap_or(NOBODY)));
         }
-        start..self.blocks()
+        start..self.blocks
     }
 
     /// Once all of them are there.
     pub fn finish(&mut self, destinations: &Destinations) {
         self.count = destinations.len();
-        self.in_order = self.order.iter().take(self.count).zip(0..).all(|(&i, place)| i == place);
-        if !self.own_variances {
-            self.variances = Default::default();
+        if self.order.iter().take(self.count).zip(0..).all(|(&i, place)| i == place) {
+            self.order.clear();
+        }
+        self.order.shrink_to_fit();
+        for axis in 0..destinations.dimensions() {
+            self.coordinates[axis].shrink_to_fit();
+            if self.own_variances {
+                let variance = |i: usize| destinations.kind(i).covariance[(axis, axis)];
+                self.variances[axis] = self.members().map(|block| block.map(|(i, _)| variance(i))).collect();
+            }
         }
     }
 
     /// How many blocks there are.
     #[must_use]
     pub fn blocks(&self) -> usize {
-        self.order.len() / WIDTH
+        self.blocks
     }
 
     /// The destinations of each block and whether they stand there themselves or only fill it up.
-    pub fn members(&self) -> impl Iterator<Item = [(usize, bool); WIDTH]> {
-        let named = |block: &[u32]| {
-            std::array::from_fn(|lane| {
-                let stands = block[lane] != NOBODY;
-                (if stands { block[lane] } else { block[0] } as usize, stands)
-            })
+    pub fn members(&self) -> impl ExactSizeIterator<Item = [(usize, bool); WIDTH]> {
+        let member = |place: usize| match self.order.get(place) {
+            Some(&i) => (i != NOBODY).then_some(i as usize),
+            None => (place < self.count).then_some(place),
         };
-        self.order.chunks_exact(WIDTH).map(named)
+        (0..self.blocks).map(move |block| {
+            let first = member(block * WIDTH).unwrap_or(0);
+            std::array::from_fn(|lane| member(block * WIDTH + lane).map_or((first, false), |i| (i, true)))
+        })
     }
 
     /// The coordinates of all, a list for each axis.
@@ -92,7 +100,7 @@ impl Layout {
     /// Takes what stands in the order of the arrays to the order of the destinations.
     pub fn scatter(&self, from: &[Block], into: &mut Vec<f64>) {
         into.clear();
-        if self.in_order {
+        if self.order.is_empty() {
             return into.extend(&from.as_flattened()[..self.count]);
         }
         into.resize(self.count, 0.0);

@@ -7,6 +7,9 @@ use crate::value::{Node, Value, quote};
 use nalgebra::{DMatrix, DVector};
 
 mod edit;
+mod ids;
+
+use ids::Ids;
 
 /// More destinations than this are an error, so that no input can exhaust the memory.
 pub const MOST_DESTINATIONS: usize = 1_000_000;
@@ -158,11 +161,12 @@ impl Kind {
 #[derive(Clone, Debug)]
 pub struct Destinations {
     dimensions: usize,
-    states: usize,
-    ids: Vec<Box<str>>,
+    ids: Ids,
     /// Positions in `ids`, sorted by id.
     by_id: Vec<u32>,
-    /// `states` numbers for each destination; those after the first `l` are zero.
+    /// The longest `l`.
+    stride: usize,
+    /// `stride` numbers for each destination; those after the first `l` are zero.
     means: Vec<f64>,
     priors: Vec<f64>,
     /// The priors in force where they are learnt.
@@ -188,10 +192,10 @@ impl Destinations {
         }
         let mut all = Self {
             dimensions,
-            states,
-            ids: Vec::with_capacity(count),
+            ids: Ids::with_capacity(count),
             by_id: Vec::new(),
-            means: Vec::with_capacity(count * states),
+            stride: dimensions,
+            means: Vec::with_capacity(count * dimensions),
             priors: Vec::with_capacity(count),
             learnt: None,
             kind_of: Vec::with_capacity(count),
@@ -207,12 +211,12 @@ impl Destinations {
             all.push(&destination, kind);
         }
         let mut by_id: Vec<u32> = (0..count as u32).collect();
-        by_id.sort_unstable_by(|&a, &b| all.ids[a as usize].cmp(&all.ids[b as usize]).then(a.cmp(&b)));
+        by_id.sort_unstable_by(|&a, &b| all.ids.get(a as usize).cmp(all.ids.get(b as usize)).then(a.cmp(&b)));
         for pair in by_id.windows(2) {
             let (first, second) = (pair[0] as usize, pair[1] as usize);
-            if all.ids[first] == all.ids[second] {
+            if all.ids.get(first) == all.ids.get(second) {
                 let path = format!("{}[{second}].id", node.path());
-                return Err(duplicate(path, &all.ids[first], first));
+                return Err(duplicate(path, all.ids.get(first), first));
             }
         }
         all.by_id = by_id;
@@ -221,11 +225,23 @@ impl Destinations {
     }
 
     fn push(&mut self, destination: &Destination, kind: u32) {
-        self.ids.push(destination.id.as_str().into());
+        self.widen(destination.mean.len());
+        self.ids.push(&destination.id);
         self.means.extend(&destination.mean);
-        self.means.resize(self.ids.len() * self.states, 0.0);
+        self.means.resize(self.ids.len() * self.stride, 0.0);
         self.priors.push(destination.prior);
         self.kind_of.push(kind);
+    }
+
+    /// Makes room for a mean of this length in every row.
+    fn widen(&mut self, length: usize) {
+        if length > self.stride {
+            let mut wider = vec![0.0; self.len() * length];
+            for (row, mean) in wider.chunks_exact_mut(length).zip(self.means.chunks_exact(self.stride)) {
+                row[..mean.len()].copy_from_slice(mean);
+            }
+            (self.means, self.stride) = (wider, length);
+        }
     }
 
     fn check_priors(&self, path: &str) -> Result<()> {
@@ -245,7 +261,7 @@ impl Destinations {
     /// Never true: a predictor keeps at least one destination.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.ids.is_empty()
+        self.len() == 0
     }
 
     /// Spatial dimensions `d`.
@@ -256,19 +272,19 @@ impl Destinations {
 
     /// The ids, in order.
     pub fn ids(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.ids.iter().map(AsRef::as_ref)
+        self.ids.iter()
     }
 
     /// The id of destination `i`.
     #[must_use]
     pub fn id(&self, i: usize) -> &str {
-        &self.ids[i]
+        self.ids.get(i)
     }
 
     /// The place of a destination in the order.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<usize> {
-        self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(id)).ok().map(|place| self.by_id[place] as usize)
+        self.by_id.binary_search_by(|&i| self.ids.get(i as usize).cmp(id)).ok().map(|place| self.by_id[place] as usize)
     }
 
     /// The place of a destination in the order.
@@ -277,7 +293,7 @@ impl Destinations {
     /// `unknown-id`.
     pub fn index_of(&self, id: &str) -> Result<usize> {
         self.find(id).ok_or_else(|| {
-            let shown: Vec<String> = self.ids.iter().take(5).map(|id| quote(id)).collect();
+            let shown: Vec<String> = self.ids.iter().take(5).map(quote).collect();
             let more = if self.len() > 5 { ", ..." } else { "" };
             let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
             Error::new(Code::UnknownId, "id", message)
@@ -288,13 +304,13 @@ impl Destinations {
     #[must_use]
     pub fn mean(&self, i: usize) -> &[f64] {
         let length = self.kind(i).covariance.nrows();
-        &self.means[i * self.states..i * self.states + length]
+        &self.means[i * self.stride..i * self.stride + length]
     }
 
     /// The centre, the first `d` components of the endpoint's mean.
     #[must_use]
     pub fn center(&self, i: usize) -> &[f64] {
-        &self.means[i * self.states..i * self.states + self.dimensions]
+        &self.means[i * self.stride..i * self.stride + self.dimensions]
     }
 
     /// The prior weights, not normalised.
@@ -336,7 +352,7 @@ impl Destinations {
     #[must_use]
     pub fn get(&self, i: usize) -> Destination {
         Destination {
-            id: self.ids[i].to_string(),
+            id: self.id(i).to_owned(),
             mean: self.mean(i).to_vec(),
             prior: self.priors[i],
             kind: self.kind(i).clone(),

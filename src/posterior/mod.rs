@@ -52,7 +52,6 @@ impl Posterior {
     pub fn set_to_prior(&mut self, destinations: &Destinations, none: f64) {
         self.joint.clear();
         self.log_likelihoods.clear();
-        self.log_likelihoods.resize(destinations.len(), 0.0);
         self.believe_prior(destinations, none);
     }
 

@@ -81,7 +81,10 @@ impl Targets {
         let total: f64 = destinations.priors().iter().sum();
         self.moderate = true;
         let (starts, directions) = (&mut self.over_start, &mut self.angular_variance);
-        [starts, directions, &mut self.over_distance, &mut self.priors].into_iter().for_each(Vec::clear);
+        for list in [starts, directions, &mut self.over_distance, &mut self.priors] {
+            list.clear();
+            list.reserve_exact(self.layout.blocks());
+        }
         for block in self.layout.members() {
             let [mut over_start, mut directions, mut over_distance, mut priors] = [[0.0; WIDTH]; 4];
             for (lane, (i, stands)) in block.into_iter().enumerate() {

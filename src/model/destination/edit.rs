@@ -10,7 +10,7 @@ impl Destinations {
     /// `duplicate-id`, `too-large`.
     pub fn add(&mut self, destination: &Destination) -> Result<()> {
         self.learnt = None;
-        let place = match self.by_id.binary_search_by(|&i| (*self.ids[i as usize]).cmp(destination.id.as_str())) {
+        let place = match self.by_id.binary_search_by(|&i| self.id(i as usize).cmp(destination.id.as_str())) {
             Ok(place) => return Err(duplicate("id".to_owned(), &destination.id, self.by_id[place] as usize)),
             Err(place) => place,
         };
@@ -35,7 +35,8 @@ impl Destinations {
             self.priors[i] = prior;
             return Err(error);
         }
-        let row = &mut self.means[i * self.states..(i + 1) * self.states];
+        self.widen(destination.mean.len());
+        let row = &mut self.means[i * self.stride..(i + 1) * self.stride];
         row.fill(0.0);
         row[..destination.mean.len()].copy_from_slice(&destination.mean);
         if *self.kind(i) != destination.kind {
@@ -62,7 +63,7 @@ impl Destinations {
         self.ids.remove(i);
         self.priors.remove(i);
         self.kind_of.remove(i);
-        self.means.drain(i * self.states..(i + 1) * self.states);
+        self.means.drain(i * self.stride..(i + 1) * self.stride);
         self.by_id.retain(|&j| j as usize != i);
         for j in &mut self.by_id {
             *j -= u32::from(*j as usize > i);
@@ -101,5 +102,35 @@ impl Destinations {
         }
         self.kinds.push(kind.clone());
         self.kinds.len() as u32 - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::value::{Node, Value};
+
+    #[test]
+    fn a_longer_endpoint_makes_room_and_moves_no_other() {
+        let list: Value = serde_json::from_str(
+            r#"[{ "id": "a", "center": [1, 2], "size": 3 }, { "id": "b", "center": [4, 5], "size": 3 }]"#,
+        )
+        .unwrap();
+        let mut destinations = Destinations::read(&Node::root(&list, "destinations"), 2, 4).unwrap();
+        let longer: Value = serde_json::from_str(
+            r#"{ "id": "c", "mean": [6, 7, 8], "covariance": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }"#,
+        )
+        .unwrap();
+        destinations.add(&Destination::read(&Node::root(&longer, "destination"), 2, 4).unwrap()).unwrap();
+        assert_eq!(
+            [0, 1, 2].map(|i| destinations.mean(i).to_vec()),
+            [vec![1.0, 2.0], vec![4.0, 5.0], vec![6.0, 7.0, 8.0]]
+        );
+        let longest: Value =
+            serde_json::from_str(r#"{ "id": "a", "center": [-1, -2], "size": 3, "endVelocity": 9 }"#).unwrap();
+        destinations.update(0, &Destination::read(&Node::root(&longest, "destination"), 2, 4).unwrap()).unwrap();
+        destinations.remove(1).unwrap();
+        assert_eq!([0, 1].map(|i| destinations.mean(i).to_vec()), [vec![-1.0, -2.0, 0.0, 0.0], vec![6.0, 7.0, 8.0]]);
+        assert_eq!(destinations.ids().collect::<Vec<_>>(), ["a", "c"]);
     }
 }
