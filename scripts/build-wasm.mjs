@@ -42,7 +42,9 @@ export async function buildWasm() {
   await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`) }, async () => {
     rmSync(join(root, generated), { recursive: true, force: true });
     for (const [i, { name, bytes }] of modules.entries()) {
-      await bindgen(compiled[i], name);
+      const snipped = `target/wasm/${name}.snipped.wasm`;
+      await xtask("snip", compiled[i], snipped);
+      await bindgen(snipped, name);
       await optimise(name);
       embed(name, bytes);
     }
@@ -65,18 +67,24 @@ async function compile(feature, file) {
   copyFileSync(join(root, `target/${target}/wasm/whither.wasm`), join(root, file));
 }
 
-function bindgen(compiled, name) {
-  const tool = ["run", "--quiet", "--package", "xtask", "--profile", "xtask", "--target-dir", "target", "--", "bindgen"];
+function xtask(...args) {
+  return run("cargo", ["run", "--quiet", "--package", "xtask", "--profile", "xtask", "--target-dir", "target", "--", ...args]);
+}
+
+function bindgen(snipped, name) {
   // The address of the file stays out of the code: bundlers would emit a second copy of it.
-  const options = ["--target", "web", "--omit-default-module-path", "--remove-name-section", "--remove-producers-section"];
-  return run("cargo", [...tool, ...options, "--out-dir", generated, "--out-name", name, compiled]);
+  const options = ["--target", "web", "--omit-default-module-path", "--remove-producers-section"];
+  return xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, snipped);
 }
 
 async function optimise(name) {
   const file = `${generated}/${name}_bg.wasm`;
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = features.map((feature) => `--enable-${feature}`);
-  await run("node", [tool, "-Oz", ...enabled, "--strip-debug", "--strip-target-features", file, "-o", file]);
+  // Large functions with a single caller stay functions: inside others they compress worse, by 6%. And functions of like
+  // names stand together, which brings 1%; until here they have names.
+  const size = ["-Oz", "--one-caller-inline-max-function-size=10", "--reorder-functions-by-name"];
+  await run("node", [tool, ...size, ...enabled, "--strip-debug", "--strip-target-features", file, "-o", file]);
 }
 
 function embed(name, bytes) {
