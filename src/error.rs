@@ -88,6 +88,12 @@ impl Code {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
+    // one pointer, so that every result that may be an error is small, and so is the code that hands it on
+    what: Box<What>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct What {
     code: Code,
     path: String,
     message: String,
@@ -109,31 +115,32 @@ impl Error {
     /// An error about the field at `path`.
     #[must_use]
     pub fn new(code: Code, path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { code, path: path.into(), message: message.into() }
+        Self { what: Box::new(What { code, path: path.into(), message: message.into() }) }
     }
 
     /// What kind of thing is wrong.
     #[must_use]
-    pub const fn code(&self) -> Code {
-        self.code
+    pub fn code(&self) -> Code {
+        self.what.code
     }
 
     /// The field, such as `destinations[3].covariance`; empty where the error is about no field.
     #[must_use]
     pub fn path(&self) -> &str {
-        &self.path
+        &self.what.path
     }
 
     /// The value and what is legal, without the path.
     #[must_use]
     pub fn message(&self) -> &str {
-        &self.message
+        &self.what.message
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.path.is_empty() { f.write_str(&self.message) } else { write!(f, "{}: {}", self.path, self.message) }
+        let What { path, message, .. } = self.what.as_ref();
+        if path.is_empty() { f.write_str(message) } else { write!(f, "{path}: {message}") }
     }
 }
 

@@ -2,10 +2,8 @@
 
 use super::model::Model;
 use crate::error::{Code, Error, Result};
+use crate::math::random::Random;
 use nalgebra::{DMatrix, DVector};
-use rand_distr::{Distribution, StandardNormal};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
 
 /// The most numbers that are drawn at once (80 MB).
 const MAX_NUMBERS: usize = 10_000_000;
@@ -20,8 +18,8 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
         let message = format!("must be a whole number from 0 to {most} for sequences of this length, got {count}");
         return Err(Error::new(Code::TooLarge, "count", message));
     }
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut normal = |n: usize| DVector::from_fn(n, |_, _| StandardNormal.sample(&mut random));
+    let mut random = Random::new(seed);
+    let mut normal = |n: usize| DVector::from_fn(n, |_, _| random.normal());
     let mut sequences = vec![vec![0.0; length]; count];
     let root = semidefinite_root(&model.pinned.covariance);
     for sequence in &mut sequences {

@@ -31,7 +31,7 @@ use crate::model::motion::{MotionModel, Transition};
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 use plan::{Group, Plan};
-use std::fmt::Debug;
+use std::fmt;
 
 /// The six methods of the papers.
 ///
@@ -127,7 +127,7 @@ pub(crate) struct Step<'a> {
 }
 
 /// An engine: turns a movement so far into `log p(y_2:k | y_1, D_i, T_n)`.
-pub(crate) trait Likelihood: Debug + Send + Sync {
+pub(crate) trait Likelihood: Send + Sync {
     /// Begins a movement at its first observation.
     fn begin(&mut self, _scene: &Scene<'_>) {}
 
@@ -152,6 +152,12 @@ pub(crate) trait Likelihood: Debug + Send + Sync {
     /// Those of reading a value.
     fn load(&mut self, _scene: &Scene<'_>, _node: &Node<'_>) -> Result<()> {
         Ok(())
+    }
+}
+
+impl fmt::Debug for dyn Likelihood + '_ {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Likelihood")
     }
 }
 

@@ -1,5 +1,6 @@
 //! Which arrival times are tried for which destination: the nodes of (6), and the destinations that share them.
 
+use crate::math::order::Numbering;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
@@ -75,7 +76,7 @@ impl Plan {
         // a grid for each kind's own prior, one for all that have none; a grid for each destination under Fitts's law
         let mut shared: Vec<Option<u32>> = vec![None; kinds.len()];
         let mut default: Option<u32> = None;
-        let mut group_of = std::collections::HashMap::new();
+        let mut groups = Numbering::default();
         for i in 0..destinations.len() {
             let kind_number = destinations.kind_of()[i] as usize;
             let kind = &kinds[kind_number];
@@ -94,10 +95,10 @@ impl Plan {
             };
             *known = Some(grid);
             plan.possible[grid as usize] |= destinations.priors()[i] > 0.0;
-            let group = *group_of.entry((grid, kind_number)).or_insert_with(|| {
+            let (group, is_new) = groups.of(&[u64::from(grid), kind_number as u64]);
+            if is_new {
                 plan.groups.push(Group { grid: grid as usize, kind: kind_number, members: Vec::new() });
-                plan.groups.len() - 1
-            });
+            }
             plan.groups[group].members.push(i as u32);
             plan.grid_of.push(grid);
             plan.rows.push(plan.rows[i] + plan.grids[grid as usize].times.len());

@@ -6,6 +6,7 @@ pub mod kalman;
 pub(crate) mod lanes;
 pub mod log_sum_exp;
 pub(crate) mod mixture;
+pub mod order;
 pub mod quadrature;
 pub mod random;
 pub mod small_root;

@@ -3,7 +3,8 @@
 use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
-use crate::value::{Node, Value, quote};
+use crate::math::order::{Numbering, order};
+use crate::value::{Node, Value, number, quote};
 use nalgebra::{DMatrix, DVector};
 
 mod edit;
@@ -201,17 +202,16 @@ impl Destinations {
             kind_of: Vec::with_capacity(count),
             kinds: Vec::new(),
         };
-        let mut known = std::collections::HashMap::new();
+        let mut known = Numbering::default();
         for item in items {
             let destination = Destination::read(&item, dimensions, states)?;
-            let kind = *known.entry(fingerprint(&destination.kind)).or_insert_with(|| {
+            let (kind, is_new) = known.of(&fingerprint(&destination.kind));
+            if is_new {
                 all.kinds.push(destination.kind.clone());
-                all.kinds.len() as u32 - 1
-            });
-            all.push(&destination, kind);
+            }
+            all.push(&destination, kind as u32);
         }
-        let mut by_id: Vec<u32> = (0..count as u32).collect();
-        by_id.sort_unstable_by(|&a, &b| all.ids.get(a as usize).cmp(all.ids.get(b as usize)).then(a.cmp(&b)));
+        let by_id = order(count, &|i, j| all.ids.get(i).cmp(all.ids.get(j)));
         for pair in by_id.windows(2) {
             let (first, second) = (pair[0] as usize, pair[1] as usize);
             if all.ids.get(first) == all.ids.get(second) {
@@ -249,7 +249,11 @@ impl Destinations {
         if total > 0.0 && total.is_finite() {
             return Ok(());
         }
-        Err(Error::new(Code::OutOfRange, path, format!("the priors must have a finite sum above 0, it is {total}")))
+        Err(Error::new(
+            Code::OutOfRange,
+            path,
+            format!("the priors must have a finite sum above 0, it is {}", number(total)),
+        ))
     }
 
     /// How many there are; at least one.

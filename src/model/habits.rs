@@ -11,8 +11,8 @@
 
 use super::destination::Destinations;
 use crate::error::{Code, Result};
+use crate::math::order::sorted;
 use crate::value::{Node, Value};
-use std::collections::BTreeMap;
 
 /// Counts below this are forgotten.
 const LEAST_COUNT: f64 = 1e-6;
@@ -55,9 +55,47 @@ pub struct Learning {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Habits {
-    counts: BTreeMap<String, f64>,
-    pairs: BTreeMap<(String, String), f64>,
+    /// Under an empty `last`.
+    counts: Counts,
+    pairs: Counts,
     last: Option<String>,
+}
+
+/// Counts in the order of their keys, in one flat list: found by bisection.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Counts(Vec<Count>);
+
+#[derive(Clone, Debug, PartialEq)]
+struct Count {
+    last: String,
+    id: String,
+    count: f64,
+}
+
+impl Counts {
+    fn find(&self, last: &str, id: &str) -> std::result::Result<usize, usize> {
+        self.0.binary_search_by(|entry| (entry.last.as_str(), entry.id.as_str()).cmp(&(last, id)))
+    }
+
+    fn get(&self, last: &str, id: &str) -> f64 {
+        self.find(last, id).map_or(0.0, |place| self.0[place].count)
+    }
+
+    /// The count of a key, which begins at zero.
+    fn entry(&mut self, last: &str, id: &str) -> &mut f64 {
+        let place = self.find(last, id).unwrap_or_else(|place| {
+            self.0.insert(place, Count { last: last.to_owned(), id: id.to_owned(), count: 0.0 });
+            place
+        });
+        &mut self.0[place].count
+    }
+
+    fn shrink(&mut self, keep: f64) {
+        self.0.retain_mut(|entry| {
+            entry.count *= keep;
+            entry.count >= LEAST_COUNT
+        });
+    }
 }
 
 impl Learning {
@@ -96,24 +134,20 @@ impl Habits {
     /// Counts a choice.
     pub fn chosen(&mut self, learning: &Learning, id: &str) {
         let keep = 1.0 - learning.forgetting;
-        let shrink = |count: &mut f64| {
-            *count *= keep;
-            *count >= LEAST_COUNT
-        };
-        self.counts.retain(|_, count| shrink(count));
-        self.pairs.retain(|_, count| shrink(count));
-        *self.counts.entry(id.to_owned()).or_default() += 1.0;
+        self.counts.shrink(keep);
+        self.pairs.shrink(keep);
+        *self.counts.entry("", id) += 1.0;
         if let Some(last) = self.last.replace(id.to_owned())
             && learning.after_last.is_some()
         {
-            *self.pairs.entry((last, id.to_owned())).or_default() += 1.0;
-            if self.pairs.len() > MOST_PAIRS {
-                let mut counts: Vec<f64> = self.pairs.values().copied().collect();
-                counts.sort_by(f64::total_cmp);
-                let middle = counts[counts.len() / 2];
-                let mut surplus = self.pairs.len() / 2;
-                self.pairs.retain(|_, count| {
-                    let goes = *count <= middle && surplus > 0;
+            *self.pairs.entry(&last, id) += 1.0;
+            let pairs = &mut self.pairs.0;
+            if pairs.len() > MOST_PAIRS {
+                let counts: Vec<f64> = pairs.iter().map(|pair| pair.count).collect();
+                let middle = sorted(&counts)[counts.len() / 2];
+                let mut surplus = counts.len() / 2;
+                pairs.retain(|pair| {
+                    let goes = pair.count <= middle && surplus > 0;
                     surplus -= usize::from(goes);
                     !goes
                 });
@@ -130,17 +164,13 @@ impl Habits {
         let mut at_large: Vec<f64> = destinations
             .ids()
             .enumerate()
-            .map(|(i, id)| {
-                learning.strength * given[i] / total + possible(i, self.counts.get(id).copied().unwrap_or(0.0))
-            })
+            .map(|(i, id)| learning.strength * given[i] / total + possible(i, self.counts.get("", id)))
             .collect();
         normalise(&mut at_large);
         let (Some(weight), Some(last)) = (learning.after_last, &self.last) else { return at_large };
-        let mut key = (last.clone(), String::new());
         let mut after: Vec<f64> = Vec::with_capacity(at_large.len());
         for (i, (id, share)) in destinations.ids().zip(&at_large).enumerate() {
-            id.clone_into(&mut key.1);
-            after.push(weight * share + possible(i, self.pairs.get(&key).copied().unwrap_or(0.0)));
+            after.push(weight * share + possible(i, self.pairs.get(last, id)));
         }
         normalise(&mut after);
         after
@@ -149,14 +179,14 @@ impl Habits {
     /// What a snapshot keeps.
     #[must_use]
     pub fn save(&self) -> Value {
-        let counts = self.counts.iter().map(|(id, count)| Value::List(vec![Value::text(id), Value::exact(*count)]));
-        let pairs = self
-            .pairs
-            .iter()
-            .map(|((last, id), count)| Value::List(vec![Value::text(last), Value::text(id), Value::exact(*count)]));
+        let save = |counts: &Counts, skipped: usize| {
+            let parts =
+                |entry: &Count| vec![Value::text(&entry.last), Value::text(&entry.id), Value::exact(entry.count)];
+            Value::List(counts.0.iter().map(|entry| Value::List(parts(entry).split_off(skipped))).collect())
+        };
         Value::map([
-            ("counts", Value::List(counts.collect())),
-            ("pairs", Value::List(pairs.collect())),
+            ("counts", save(&self.counts, 1)),
+            ("pairs", save(&self.pairs, 0)),
             ("last", self.last.as_deref().map_or(Value::Null, Value::text)),
         ])
     }
@@ -171,14 +201,14 @@ impl Habits {
         for item in fields.required("counts")?.items()? {
             let parts: Vec<Node<'_>> = item.items()?.collect();
             let [id, count] = parts.as_slice() else { return Err(item.error(Code::WrongLength, "must have 2 items")) };
-            habits.counts.insert(id.text()?.to_owned(), count.exact()?);
+            *habits.counts.entry("", id.text()?) = count.exact()?;
         }
         for item in fields.required("pairs")?.items()? {
             let parts: Vec<Node<'_>> = item.items()?.collect();
             let [last, id, count] = parts.as_slice() else {
                 return Err(item.error(Code::WrongLength, "must have 3 items"));
             };
-            habits.pairs.insert((last.text()?.to_owned(), id.text()?.to_owned()), count.exact()?);
+            *habits.pairs.entry(last.text()?, id.text()?) = count.exact()?;
         }
         habits.last = fields.optional("last").map(|last| last.text().map(str::to_owned)).transpose()?;
         Ok(habits)

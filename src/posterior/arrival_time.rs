@@ -2,12 +2,13 @@
 
 use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
+use crate::math::order::order;
 
 /// Arrival times and their probabilities.
 ///
 /// ```
 /// use whither::Arrival;
-/// let arrival = Arrival::from_nodes(vec![(5.0, 3.0), (1.0, 1.0)]);
+/// let arrival = Arrival::from_nodes(&[(5.0, 3.0), (1.0, 1.0)]);
 /// assert_eq!((&arrival.times[..], &arrival.probabilities[..]), (&[1.0, 5.0][..], &[0.25, 0.75][..]));
 /// assert_eq!(arrival.mean, 4.0);
 /// assert!((arrival.deviation - 3f64.sqrt()).abs() < 1e-14); // (9 + 3 * 1) / 4
@@ -27,17 +28,19 @@ pub struct Arrival {
 impl Arrival {
     /// The arrival for nodes that may repeat and be in any order; `weights` need not sum to one.
     #[must_use]
-    pub fn from_nodes(mut nodes: Vec<(f64, f64)>) -> Self {
-        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        nodes.dedup_by(|later, earlier| {
-            let same = later.0 == earlier.0;
-            if same {
-                earlier.1 += later.1;
+    pub fn from_nodes(nodes: &[(f64, f64)]) -> Self {
+        let (mut times, mut probabilities): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+        for i in order(nodes.len(), &|i, j| nodes[i].0.total_cmp(&nodes[j].0)) {
+            let (time, weight) = nodes[i as usize];
+            match probabilities.last_mut() {
+                Some(sum) if times.last() == Some(&time) => *sum += weight,
+                _ => {
+                    times.push(time);
+                    probabilities.push(weight);
+                }
             }
-            same
-        });
-        let total: f64 = nodes.iter().map(|(_, weight)| weight).sum();
-        let (times, mut probabilities): (Vec<f64>, Vec<f64>) = nodes.into_iter().unzip();
+        }
+        let total: f64 = probabilities.iter().sum();
         if total > 0.0 {
             probabilities.iter_mut().for_each(|p| *p /= total);
         }
@@ -79,7 +82,7 @@ impl Posterior {
                 nodes.push((time, share * weight));
             }
         }
-        nodes.iter().any(|(_, weight)| *weight > 0.0).then(|| Arrival::from_nodes(nodes))
+        nodes.iter().any(|(_, weight)| *weight > 0.0).then(|| Arrival::from_nodes(&nodes))
     }
 }
 
@@ -89,7 +92,7 @@ mod tests {
 
     #[test]
     fn nodes_at_one_time_are_one_node() {
-        let arrival = Arrival::from_nodes(vec![(3.0, 1.0), (1.0, 1.0), (3.0, 2.0)]);
+        let arrival = Arrival::from_nodes(&[(3.0, 1.0), (1.0, 1.0), (3.0, 2.0)]);
         assert_eq!(arrival.times, [1.0, 3.0]);
         assert_eq!(arrival.probabilities, [0.25, 0.75]);
         assert_eq!(arrival.mean, 2.5);
@@ -98,7 +101,7 @@ mod tests {
 
     #[test]
     fn quantiles_run_from_node_to_node() {
-        let arrival = Arrival::from_nodes(vec![(1.0, 1.0), (2.0, 1.0), (4.0, 2.0)]);
+        let arrival = Arrival::from_nodes(&[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0)]);
         assert_eq!(arrival.quantile(0.05), 1.0);
         assert_eq!(arrival.quantile(0.25), 1.5);
         assert_eq!(arrival.quantile(0.99), 4.0);

@@ -8,7 +8,16 @@ pub fn quote(text: &str) -> String {
     format!("\"{cut}{more}\"")
 }
 
+/// A number as JavaScript prints it.
+#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
+#[must_use]
+pub fn number(x: f64) -> String {
+    // JavaScript has this already; in Rust the printing of floating-point numbers weighs 8 kB under gzip
+    crate::wasm::number(x)
+}
+
 /// A number as JavaScript would print it, nearly.
+#[cfg(not(all(feature = "wasm", target_arch = "wasm32")))]
 #[must_use]
 pub fn number(x: f64) -> String {
     if x.is_nan() {

@@ -15,8 +15,16 @@ mod predictor;
 mod sequence;
 
 use error::WhitherError;
+use wasm_bindgen::prelude::wasm_bindgen;
 
 type Result<T> = std::result::Result<T, WhitherError>;
+
+#[wasm_bindgen]
+extern "C" {
+    /// A number as JavaScript prints it.
+    #[wasm_bindgen(js_name = String)]
+    pub(crate) fn number(x: f64) -> String;
+}
 
 /// The mean and behind it the covariance.
 #[cfg(feature = "wasm")]

@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// The scenario for `{ targets, options? }` on a screen.
 #[wasm_bindgen]
 pub fn pointer_scenario(value: JsValue) -> Result<JsValue> {
-    let value = data::read(value)?;
+    let value = data::read(&value)?;
     let node = Node::root(&value, "");
     let fields = node.fields(&["targets", "options"])?;
     let targets =

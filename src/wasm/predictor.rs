@@ -19,13 +19,13 @@ impl Engine {
     /// From a scenario.
     #[wasm_bindgen(constructor)]
     pub fn new(value: JsValue) -> Result<Engine> {
-        let scenario = Scenario::from_value(&data::read(value)?)?;
+        let scenario = Scenario::from_value(&data::read(&value)?)?;
         Ok(Self { predictor: Predictor::new(&scenario)? })
     }
 
     /// From a snapshot.
     pub fn restore(value: JsValue) -> Result<Engine> {
-        Ok(Self { predictor: Predictor::restore(&data::read(value)?)? })
+        Ok(Self { predictor: Predictor::restore(&data::read(&value)?)? })
     }
 
     /// A second engine in the same state.
@@ -47,7 +47,7 @@ impl Engine {
 
     /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
     pub fn observe_in_full(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["time", "position", "noise"])?;
         let time = fields.required("time")?.number()?;
@@ -103,7 +103,7 @@ impl Engine {
 
     /// The arrival time for `{ id? }`: mean, deviation, the times, their probabilities.
     pub fn arrival(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let id = node.get("id");
         let id = id.as_ref().map(Node::text).transpose()?;
@@ -133,7 +133,7 @@ impl Engine {
 
     /// The state at `{ time }`.
     pub fn forecast(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let time = node.fields(&["time"])?.required("time")?.number()?;
         Ok(self.predictor.forecast(time)?.map(flat))
@@ -141,7 +141,7 @@ impl Engine {
 
     /// The expected positions for `{ id, times }`.
     pub fn path(&mut self, value: JsValue) -> Result<Vec<f64>> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["id", "times"])?;
         let id = fields.required("id")?.text()?;
@@ -151,7 +151,7 @@ impl Engine {
 
     /// Adds `{ destination }`.
     pub fn add_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let destination = node.fields(&["destination"])?.required("destination")?.value();
         Ok(self.predictor.add_destination(destination)?)
@@ -159,7 +159,7 @@ impl Engine {
 
     /// Replaces `{ id, destination }`.
     pub fn update_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["id", "destination"])?;
         let id = fields.required("id")?.text()?;
@@ -168,14 +168,14 @@ impl Engine {
 
     /// Removes `{ id }`.
     pub fn remove_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         Ok(self.predictor.remove_destination(node.fields(&["id"])?.required("id")?.text()?)?)
     }
 
     /// Sets all `{ destinations }`.
     pub fn set_destinations(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let destinations = node.fields(&["destinations"])?.required("destinations")?.value();
         Ok(self.predictor.set_destinations(destinations)?)
@@ -188,7 +188,7 @@ impl Engine {
 
     /// Counts `{ id }` as chosen.
     pub fn chosen(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         Ok(self.predictor.chosen(node.fields(&["id"])?.required("id")?.text()?)?)
     }

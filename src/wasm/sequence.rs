@@ -20,12 +20,12 @@ impl SequenceEngine {
     /// A sequence induced by a Markov model.
     #[wasm_bindgen(constructor)]
     pub fn new(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::new(&data::read(value)?)? })
+        Ok(Self { sequence: ConditionallyMarkovSequence::new(&data::read(&value)?)? })
     }
 
     /// A sequence given matrix by matrix.
     pub fn from_parameters(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&data::read(value)?)? })
+        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&data::read(&value)?)? })
     }
 
     /// The number of components of one state.
@@ -51,7 +51,7 @@ impl SequenceEngine {
 
     /// Takes in `{ step, position }`.
     pub fn measure(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["step", "position"])?;
         let step = self.whole_step(&fields.required("step")?)?;
@@ -75,7 +75,7 @@ impl SequenceEngine {
 
     /// `{ seed, count }` whole sequences, one behind the other.
     pub fn sample(&self, value: JsValue) -> Result<Vec<f64>> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["seed", "count"])?;
         let seed = fields.required("seed")?.whole(0, u32::MAX as usize)?;
@@ -97,7 +97,7 @@ impl SequenceEngine {
 impl SequenceEngine {
     /// `{ step }`.
     fn step(&self, value: JsValue) -> crate::Result<usize> {
-        let value = data::read(value)?;
+        let value = data::read(&value)?;
         let node = Node::root(&value, "");
         self.whole_step(&node.fields(&["step"])?.required("step")?)
     }
@@ -112,7 +112,7 @@ impl SequenceEngine {
 }
 
 fn tolerance(value: JsValue) -> crate::Result<f64> {
-    let value = data::read(value)?;
+    let value = data::read(&value)?;
     let node = Node::root(&value, "");
     node.fields(&["tolerance"])?.optional("tolerance").map_or(Ok(DEFAULT_TOLERANCE), |tolerance| tolerance.number())
 }

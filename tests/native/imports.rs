@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 /// Each part of the crate and the parts that it may name with `crate::`. `error` and `value` are at the bottom.
 const RUST: [(&str, &[&str]); 13] = [
     ("error", &[]),
-    ("value", &[]),
+    // the numbers of messages, as JavaScript prints them
+    ("value", &["wasm"]),
     ("math", &["math"]),
     ("model", &["math", "model"]),
     ("likelihood", &["math", "model", "likelihood"]),

@@ -64,11 +64,7 @@ impl Work {
                 }
             }
         }
-        let (most, doubtful) = match d {
-            1 => self.exponents::<1>(targets, now),
-            2 => self.exponents::<2>(targets, now),
-            _ => self.exponents::<3>(targets, now),
-        };
+        let (most, doubtful) = self.exponents(targets, now);
         let shift = most.round();
         let (total, certain) = (self.raise(&targets.priors, shift), doubtful < most - NOTHING);
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
@@ -82,7 +78,7 @@ impl Work {
     /// Turns the sums `N_i / S_i` into the exponents of the likelihoods, and returns the largest, and the largest of those
     /// whose sums may have been cut off.
     #[inline(never)]
-    fn exponents<const D: usize>(&mut self, targets: &Targets, now: &Now<'_>) -> (f64, f64) {
+    fn exponents(&mut self, targets: &Targets, now: &Now<'_>) -> (f64, f64) {
         let s = Lanes::splat;
         let coordinates = targets.layout.coordinates();
         let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));
@@ -92,7 +88,7 @@ impl Work {
         for (i, (exponent, (variance, over_distance))) in self.weights.iter_mut().zip(statics).enumerate() {
             let over_distance = Lanes::load(over_distance);
             let [mut along, mut across] = [s(0.0); 2];
-            // no loop over the axes: at the level for size it would stay one
+            // no loop over the axes: at the level for size it would stay one; an axis that there is not has no blocks
             let mut axis = |k: usize| {
                 let Some(block) = coordinates[k].get(i) else { return };
                 let unit = (Lanes::load(block) - s(now.start[k])) * over_distance;
@@ -101,12 +97,8 @@ impl Work {
                 across = across + difference * difference;
             };
             axis(0);
-            if D > 1 {
-                axis(1);
-            }
-            if D > 2 {
-                axis(2);
-            }
+            axis(1);
+            axis(2);
             let (angle, variance) = (Lanes::squared_angle(along, across), Lanes::load(variance));
             let (wide, core) = (wide + variance, core + variance);
             let wider = (wide + angle) / wide;

@@ -4,9 +4,9 @@ use super::separable::{AxisEnd, MOST};
 use crate::likelihood::layout::Layout;
 use crate::likelihood::plan::Plan;
 use crate::math::lanes::{Block, WIDTH};
+use crate::math::order::Numbering;
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// Arrival nodes of a class.
@@ -167,33 +167,32 @@ impl Classes {
 
     /// By nodes and endpoint, those of one size together.
     fn drafts(&mut self, destinations: &Destinations, plan: &Plan) -> Vec<((usize, usize), Vec<Draft>)> {
-        let mut known_ends: HashMap<Vec<u64>, usize> = HashMap::new();
-        let mut known: HashMap<(usize, usize), usize> = HashMap::new();
+        let (mut known_ends, mut known) = (Numbering::default(), Numbering::default());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
             let covariance = &destinations.kinds()[group.kind].covariance;
             let mut members: Vec<(usize, Draft)> = Vec::new();
-            let mut here: HashMap<Vec<u64>, usize> = HashMap::new();
+            let mut here = Numbering::default();
             for &i in &group.members {
                 let mean = destinations.mean(i as usize);
                 let rest: Vec<u64> = mean[self.dimensions..].iter().map(|x| x.to_bits()).collect();
-                let draft = *here.entry(rest).or_insert_with(|| {
+                let (draft, is_new) = here.of(&rest);
+                if is_new {
                     let end = End::new(mean, covariance, self.dimensions, self.separable);
-                    let number = *known_ends.entry(end.key()).or_insert_with(|| {
+                    let (number, is_new) = known_ends.of(&end.key());
+                    if is_new {
                         self.ends.push(end);
-                        self.ends.len() - 1
-                    });
+                    }
                     let size = std::array::from_fn(|k| if k < self.dimensions { covariance[(k, k)] } else { 0.0 });
                     members.push((number, Draft { size, members: Vec::new() }));
-                    members.len() - 1
-                });
+                }
                 members[draft].1.members.push(i);
             }
             for (end, draft) in members {
-                let place = *known.entry((group.grid, end)).or_insert_with(|| {
+                let (place, is_new) = known.of(&[group.grid as u64, end as u64]);
+                if is_new {
                     all.push(((group.grid, end), Vec::new()));
-                    all.len() - 1
-                });
+                }
                 all[place].1.push(draft);
             }
         }

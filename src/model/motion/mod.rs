@@ -23,7 +23,7 @@
 use crate::error::{Code, Error, Result};
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
-use std::fmt::Debug;
+use std::fmt;
 use std::sync::Arc;
 
 pub mod brownian;
@@ -101,7 +101,7 @@ pub struct AxisTransition {
 /// assert!((second.transition * first.transition - both.transition).amax() < 1e-14);
 /// assert!((carried - both.noise).amax() < 1e-12);
 /// ```
-pub trait MotionModel: Debug + Send + Sync {
+pub trait MotionModel: Send + Sync {
     /// Spatial dimensions `d`, 1 to 3.
     fn dimensions(&self) -> usize;
 
@@ -123,6 +123,12 @@ pub trait MotionModel: Debug + Send + Sync {
 
     /// The model as a scenario writes it.
     fn to_value(&self) -> Value;
+}
+
+impl fmt::Debug for dyn MotionModel + '_ {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("MotionModel")
+    }
 }
 
 /// The whole state's step from those of the axes: component `i` of axis `k` stands at `i d + k`.

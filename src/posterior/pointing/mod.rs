@@ -59,6 +59,6 @@ impl Pointing {
             let weights = pairs.weights(destinations.center(i), &destinations.kind(i).covariance);
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
         }
-        Arrival::from_nodes(nodes)
+        Arrival::from_nodes(&nodes)
     }
 }
