@@ -7,9 +7,11 @@
 use crate::error::{Code, Error, Result};
 use std::fmt::Write;
 
+mod fields;
 mod quote;
 mod serial;
 
+pub use fields::Fields;
 pub use quote::{number, quote};
 
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
@@ -303,7 +305,7 @@ impl<'a> Node<'a> {
             let must = format!("must have {length} numbers, has {}", items.len());
             return Err(self.error(Code::WrongLength, &must));
         }
-        items.map(|item| item.exact()).collect()
+        self.numbers(|item| item.exact())
     }
 
     /// A string.
@@ -355,8 +357,21 @@ impl<'a> Node<'a> {
                 let found = items.len();
                 Err(self.error(Code::WrongLength, &format!("must have {n} numbers, has {found}")))
             }
-            _ => items.map(|item| item.number()).collect(),
+            _ => self.numbers(|item| item.number()),
         }
+    }
+
+    /// A list of numbers, each passed through `check`.
+    ///
+    /// # Errors
+    /// `wrong-type`, and what `check` says.
+    pub fn numbers(&self, check: fn(&Node<'_>) -> Result<f64>) -> Result<Vec<f64>> {
+        let items = self.items()?;
+        let mut numbers = Vec::with_capacity(items.len());
+        for item in items {
+            numbers.push(check(&item)?);
+        }
+        Ok(numbers)
     }
 
     /// One number for all axes, or one for each, each passed through `check`.
@@ -366,7 +381,7 @@ impl<'a> Node<'a> {
     pub fn for_each_axis(&self, axes: usize, check: fn(&Node<'_>) -> Result<f64>) -> Result<Vec<f64>> {
         if matches!(self.value, Value::List(_)) {
             self.vector(Some(axes))?;
-            self.items()?.map(|item| check(&item)).collect()
+            self.numbers(check)
         } else {
             if !matches!(self.value, Value::Number(_)) {
                 let must = format!("must be a number or a list of {axes} numbers, one for each axis");
@@ -391,48 +406,5 @@ impl<'a> Node<'a> {
             matrix.extend(row.vector(Some(columns))?);
         }
         Ok(matrix)
-    }
-}
-
-/// An object whose keys have been checked.
-///
-/// ```
-/// use whither::{Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "noise": 3, "matrix": null }"#).unwrap();
-/// let root = Node::root(&value, "observation");
-/// let fields = root.fields(&["noise", "matrix"]).unwrap();
-/// assert_eq!(fields.required("noise").unwrap().number(), Ok(3.0));
-/// assert!(fields.optional("matrix").is_none()); // null counts as absent
-/// assert_eq!(root.fields(&["noise"]).unwrap_err().path(), "observation.matrix");
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Fields<'a> {
-    entries: &'a [(String, Value)],
-    node: &'a Node<'a>,
-}
-
-impl<'a> Fields<'a> {
-    /// The value at `key`, or none where it is absent or null.
-    #[must_use]
-    pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
-        let (_, value) = self.entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
-        Some(Node { value, parent: Some(self.node), step: Step::Key(key) })
-    }
-
-    /// The value at `key`.
-    ///
-    /// # Errors
-    /// `missing-key`.
-    pub fn required(&self, key: &'a str) -> Result<Node<'a>> {
-        self.optional(key).ok_or_else(|| {
-            let path = Node { value: &Value::Null, parent: Some(self.node), step: Step::Key(key) }.path();
-            Error::new(Code::MissingKey, path, format!("missing key {}", quote(key)))
-        })
-    }
-
-    /// The object itself.
-    #[must_use]
-    pub const fn node(&self) -> &'a Node<'a> {
-        self.node
     }
 }

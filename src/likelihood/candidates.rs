@@ -261,7 +261,7 @@ impl Movement {
         };
         let mut movement = Self::begin(motion, method, destinations, plan, first);
         movement.elapsed = fields.required("elapsed")?.exact()?;
-        movement.observations = fields.required("observations")?.positive()? as u64;
+        movement.observations = fields.positive("observations")? as u64;
         let list = fields.required("worlds")?;
         let items: Vec<Node<'_>> = list.items()?.collect();
         for (world, item) in movement.worlds.iter_mut().zip(&items) {

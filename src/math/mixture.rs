@@ -44,10 +44,7 @@ pub trait Term<const D: usize>: Copy {
     /// The places of block `i`; none beyond the end.
     fn place(places: &Places<'_>, i: usize) -> Option<Self::Place>;
 
-    /// The exponent, in base 2.
-    fn exponent(&self, place: &Self::Place) -> Lanes;
-
-    /// The exponent, and the factor before the power.
+    /// The exponent, in base 2, and the factor before the power.
     fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes);
 }
 
@@ -60,7 +57,7 @@ fn at(list: &[Block], i: usize) -> Option<Lanes> {
 /// Writes `prior_i sum_n f_n 2^(e_n(i) - shift)` for every place, and returns their sum over all of them. Exponents are cut at
 /// 960 on either side of the shift, a whole number.
 #[inline(never)]
-pub fn weigh<const D: usize, T: Term<D>>(
+fn weigh<const D: usize, T: Term<D>>(
     terms: &[T],
     places: &Places<'_>,
     shift: f64,
@@ -93,21 +90,65 @@ pub fn weigh<const D: usize, T: Term<D>>(
     total.sum()
 }
 
+/// The exponent and the factor of term `n` at block `i`; none beyond the last block.
+type At<'a> = dyn Fn(usize, usize) -> Option<(Lanes, Lanes)> + 'a;
+
+fn term_at<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, n: usize, i: usize) -> Option<(Lanes, Lanes)> {
+    Some(terms.get(n)?.exponent_and_factor(&T::place(places, i)?))
+}
+
+#[inline(never)]
+fn term_in<T: Term<1> + Term<2> + Term<3>>(
+    dimensions: usize,
+    terms: &[T],
+    places: &Places<'_>,
+    (n, i): (usize, usize),
+) -> Option<(Lanes, Lanes)> {
+    match dimensions {
+        1 => term_at::<1, T>(terms, places, n, i),
+        2 => term_at::<2, T>(terms, places, n, i),
+        _ => term_at::<3, T>(terms, places, n, i),
+    }
+}
+
+/// Adds `factor * 2^(exponent - shift)`.
+#[inline(never)]
+fn add(sum: &mut Lanes, (exponent, factor): &(Lanes, Lanes), shift: &Shift) {
+    *sum = *sum + *factor * exponent.exp2(shift);
+}
+
+/// [`weigh`] for any kind of terms: smaller, and slower.
+#[inline(never)]
+fn weigh_any(terms: usize, at: &At<'_>, shift: f64, priors: &[Block], weights: &mut [Block]) -> f64 {
+    let shift = Shift::by(shift);
+    let mut total = Lanes::splat(0.0);
+    for (i, (prior, weight)) in priors.iter().zip(weights).enumerate() {
+        let mut sum = Lanes::splat(0.0);
+        for n in 0..terms {
+            let Some(term) = at(n, i) else { return total.sum() };
+            add(&mut sum, &term, &shift);
+        }
+        let weighed = sum * Lanes::load(prior);
+        weighed.store(weight);
+        total = total + weighed;
+    }
+    total.sum()
+}
+
 /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
 #[inline(never)]
-pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, logs: &mut [Block]) {
-    let Some(first) = terms.first() else { return logs.fill([f64::NEG_INFINITY; WIDTH]) };
+fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
     let none = Shift::by(0.0);
     for (i, log) in logs.iter_mut().enumerate() {
-        let Some(place) = T::place(places, i) else { break };
-        let mut top = first.exponent(&place);
-        for term in terms {
-            top = term.exponent(&place).at_least(top);
+        let Some((mut top, _)) = at(0, i) else { return log.fill(f64::NEG_INFINITY) };
+        for n in 1..terms {
+            let Some((exponent, _)) = at(n, i) else { return };
+            top = exponent.at_least(top);
         }
         let mut sum = Lanes::splat(0.0);
-        for term in terms {
-            let (exponent, factor) = term.exponent_and_factor(&place);
-            sum = sum + factor * (exponent - top).exp2(&none);
+        for n in 0..terms {
+            let Some((exponent, factor)) = at(n, i) else { return };
+            add(&mut sum, &(exponent - top, factor), &none);
         }
         let mut tops = [0.0; WIDTH];
         top.store(&mut tops);
@@ -116,7 +157,7 @@ pub fn log2_sums<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, l
     }
 }
 
-/// [`weigh`] in so many dimensions.
+/// [`weigh`] in so many dimensions: two have a loop of their own for each kind of terms, the others share one.
 pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
     dimensions: usize,
     terms: &[T],
@@ -125,25 +166,21 @@ pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
     priors: &[Block],
     weights: &mut [Block],
 ) -> f64 {
-    match dimensions {
-        1 => weigh::<1, T>(terms, places, shift, priors, weights),
-        2 => weigh::<2, T>(terms, places, shift, priors, weights),
-        _ => weigh::<3, T>(terms, places, shift, priors, weights),
+    if dimensions == 2 {
+        weigh::<2, T>(terms, places, shift, priors, weights)
+    } else {
+        weigh_any(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), shift, priors, weights)
     }
 }
 
-/// [`log2_sums`] in so many dimensions.
+/// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents, in so many dimensions.
 pub fn log2_sums_in<T: Term<1> + Term<2> + Term<3>>(
     dimensions: usize,
     terms: &[T],
     places: &Places<'_>,
     logs: &mut [Block],
 ) {
-    match dimensions {
-        1 => log2_sums::<1, T>(terms, places, logs),
-        2 => log2_sums::<2, T>(terms, places, logs),
-        _ => log2_sums::<3, T>(terms, places, logs),
-    }
+    log2_sums(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), logs);
 }
 
 #[cfg(test)]
@@ -239,12 +276,16 @@ mod tests {
         let mut weights = vec![[0.0; WIDTH]; 3];
         let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ball");
-        let total = weigh::<2, _>(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, 0.0, &priors, &mut weights);
+        let ellipsoids = RATIOS.each_ref().map(Ratio::ellipsoid);
+        let total = weigh::<2, _>(&ellipsoids, &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ellipsoid");
+        let at = |n, i| term_in(2, &ellipsoids, &places, (n, i));
+        let total = weigh_any(ellipsoids.len(), &at, 0.0, &priors, &mut weights);
+        expect(&weights, total, "any");
         let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
-        log2_sums::<2, _>(&RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
+        log2_sums_in(2, &RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
         for (log, weight) in logs.as_flattened().iter().zip(weights.as_flattened()) {
             assert!((log - (weight / 0.25).log2()).abs() < 1e-12);
         }
@@ -263,7 +304,7 @@ mod tests {
         let places = Places { coordinates: [&ones[..]; AXES], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut weights = [[0.0; WIDTH]];
         // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
-        let total = weigh::<3, _>(&[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let total = weigh_in(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
         let expected = 0.5 * (-5.25f64).exp2();
         assert!((weights[0][7] / expected - 1.0).abs() < 1e-14 && (total / (8.0 * expected) - 1.0).abs() < 1e-14);
     }
@@ -291,7 +332,7 @@ mod tests {
         let x = [[0.0, 1.0, 1e3, 1e6, 0.0, 0.0, 0.0, 0.0]];
         let places = Places { coordinates: [&x[..], &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut logs = [[0.0; WIDTH]];
-        log2_sums::<1, _>(&[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
+        log2_sums_in(1, &[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
         assert_eq!(logs[0][..4], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
     }
 }

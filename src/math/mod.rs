@@ -1,5 +1,6 @@
 //! Gaussian algebra, quadrature and the matrix exponential: everything that knows no motion model.
 
+pub mod cosine;
 pub mod decay;
 pub mod gaussian;
 pub mod kalman;

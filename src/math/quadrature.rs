@@ -1,5 +1,6 @@
 //! Quadrature over an interval: nodes and weights that sum to one.
 
+use super::cosine::cosine;
 use super::order::sorted;
 use super::random::Random;
 use crate::error::{Code, Result};
@@ -209,7 +210,7 @@ fn drawn(points: usize, seed: u32, draw: fn(&mut Random) -> f64) -> Rule {
 fn gauss_legendre(points: usize) -> Rule {
     let mut rule = Rule { nodes: vec![0.5; points], weights: vec![1.0; points] };
     for i in 0..points / 2 {
-        let mut root = (std::f64::consts::PI * (i as f64 + 0.75) / (points as f64 + 0.5)).cos();
+        let mut root = cosine((i as f64 + 0.75) / (2.0 * points as f64 + 1.0));
         for _ in 0..8 {
             let (value, slope) = legendre(points, root);
             root -= value / slope;

@@ -1,5 +1,6 @@
 //! Seeded random numbers, the same on every platform.
 
+use super::cosine::cosine;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -31,7 +32,7 @@ impl Random {
     /// From the standard normal density, by Box and Muller (1958).
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * self.uniform().ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
+        radius * cosine(self.uniform())
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::error::{Code, Result};
 use crate::math::quadrature::{MAX_POINTS, Quadrature};
-use crate::value::{Node, Value};
+use crate::value::{Node, Value, number};
 
 /// The longest time that a prior can name, in seconds; it keeps every power of a step finite.
 pub const MAX_TIME: f64 = 1e12;
@@ -218,7 +218,7 @@ fn interval(node: &Node<'_>) -> Result<(f64, f64)> {
     if to > from {
         Ok((from, to))
     } else {
-        let must = format!("must be greater than \"from\", which is {}", crate::value::number(from));
+        let must = format!("must be greater than \"from\", which is {}", number(from));
         Err(latest.error(Code::OutOfRange, &must))
     }
 }
@@ -230,20 +230,19 @@ fn interval_value(kind: &str, from: f64, to: f64) -> Value {
 fn discrete(node: &Node<'_>) -> Result<Arrival> {
     let fields = node.fields(&["type", "times", "weights"])?;
     let list = fields.required("times")?;
-    let items = list.items()?;
-    let count = items.len();
+    let count = list.items()?.len();
     if count == 0 {
         return Err(list.error(Code::WrongLength, "must have at least one time"));
     }
     if count > MAX_POINTS {
         return Err(list.error(Code::TooLarge, &format!("must have at most {MAX_POINTS} times, has {count}")));
     }
-    let times = items.map(|item| time(&item)).collect::<Result<Vec<f64>>>()?;
+    let times = list.numbers(time)?;
     let weights = match fields.optional("weights") {
         None => vec![1.0; count],
         Some(list) => {
             list.vector(Some(count))?;
-            let weights = list.items()?.map(|item| item.not_negative()).collect::<Result<Vec<f64>>>()?;
+            let weights = list.numbers(|item| item.not_negative())?;
             let sum: f64 = weights.iter().sum();
             if !(sum > 0.0 && sum.is_finite()) {
                 return Err(list.error(Code::OutOfRange, "must have a finite sum greater than 0"));
@@ -259,7 +258,7 @@ fn spread(node: &Node<'_>) -> Result<f64> {
     if spread > 0.0 && spread <= MAX_SPREAD {
         Ok(spread)
     } else {
-        Err(node.error(Code::OutOfRange, &format!("must be greater than 0 and at most {MAX_SPREAD}")))
+        Err(node.error(Code::OutOfRange, &format!("must be greater than 0 and at most {}", number(MAX_SPREAD))))
     }
 }
 

@@ -113,7 +113,7 @@ impl Learning {
             },
         };
         Ok(Self {
-            strength: fields.required("strength")?.positive()?,
+            strength: fields.positive("strength")?,
             forgetting,
             after_last: fields.optional("afterLast").map(|node| node.positive()).transpose()?,
         })

@@ -9,7 +9,7 @@ pub fn quote(text: &str) -> String {
 }
 
 /// A number as JavaScript prints it.
-#[cfg(all(feature = "wasm", target_arch = "wasm32"))]
+#[cfg(all(any(feature = "wasm", feature = "wasm-fit"), target_arch = "wasm32"))]
 #[must_use]
 pub fn number(x: f64) -> String {
     // JavaScript has this already; in Rust the printing of floating-point numbers weighs 8 kB under gzip
@@ -17,7 +17,7 @@ pub fn number(x: f64) -> String {
 }
 
 /// A number as JavaScript would print it, nearly.
-#[cfg(not(all(feature = "wasm", target_arch = "wasm32")))]
+#[cfg(not(all(any(feature = "wasm", feature = "wasm-fit"), target_arch = "wasm32")))]
 #[must_use]
 pub fn number(x: f64) -> String {
     if x.is_nan() {

@@ -21,7 +21,7 @@ extern "C" {
 /// were and are, the mean loss on the tracks left out before and after, and how many tracks were used.
 #[wasm_bindgen]
 pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
-    let value = data::read(value)?;
+    let value = data::read(&value)?;
     let node = Node::root(&value, "");
     let fields = node.fields(&["tracks", "scenario", "constants", "evaluations", "destination"])?;
     let tracks =

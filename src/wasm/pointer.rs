@@ -27,9 +27,9 @@ fn pointer_target(node: &Node<'_>) -> crate::Result<PointerTarget> {
     let fields = node.fields(&["id", "x", "y", "width", "height"])?;
     Ok(PointerTarget {
         id: fields.required("id")?.text()?.to_owned(),
-        x: fields.required("x")?.number()?,
-        y: fields.required("y")?.number()?,
-        width: fields.required("width")?.positive()?,
-        height: fields.required("height")?.positive()?,
+        x: fields.number("x")?,
+        y: fields.number("y")?,
+        width: fields.positive("width")?,
+        height: fields.positive("height")?,
     })
 }

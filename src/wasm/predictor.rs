@@ -50,7 +50,7 @@ impl Engine {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["time", "position", "noise"])?;
-        let time = fields.required("time")?.number()?;
+        let time = fields.number("time")?;
         let position = fields.required("position")?;
         let coordinate = |item: Node<'_>| match item.value() {
             Value::Null => Ok(None),
@@ -135,7 +135,7 @@ impl Engine {
     pub fn forecast(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");
-        let time = node.fields(&["time"])?.required("time")?.number()?;
+        let time = node.fields(&["time"])?.number("time")?;
         Ok(self.predictor.forecast(time)?.map(flat))
     }
 

@@ -191,7 +191,7 @@ impl Course {
             dimensions,
             start: vector(start),
             elapsed: fields.required("elapsed")?.exact()?,
-            observations: fields.required("observations")?.positive()? as u64,
+            observations: fields.positive("observations")? as u64,
             axes,
         })
     }

@@ -43,7 +43,7 @@ impl EntryTime {
     /// Those of reading a value; `out-of-range`.
     pub fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["offset", "nodes", "near", "distance", "elapsed", "low", "high"])?;
-        let number = |key: &'static str| fields.required(key)?.number();
+        let number = |key: &'static str| fields.number(key);
         let (low, high) = (number("low")?, number("high")?);
         if low >= 0.0 {
             return Err(fields.required("low")?.error(Code::OutOfRange, "must be less than 0"));
@@ -55,7 +55,7 @@ impl EntryTime {
             offset: number("offset")?,
             nodes: number("nodes")?,
             near: number("near")?,
-            distance: fields.required("distance")?.positive()?,
+            distance: fields.positive("distance")?,
             elapsed: number("elapsed")?,
             low,
             high,

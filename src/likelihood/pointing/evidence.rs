@@ -27,7 +27,7 @@ pub fn log_near(near: f64, offset: &Vector, kind: &Kind, dimensions: usize) -> f
         volume *= extent;
     }
     // One unit of length, so that a target right under the start keeps a chance.
-    distance += volume.powf(-2.0 / dimensions as f64);
+    distance += (-2.0 / dimensions as f64 * volume.ln()).exp();
     (distance / (distance + near * near)).ln()
 }
 

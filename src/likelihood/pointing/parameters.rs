@@ -185,20 +185,19 @@ impl Parameters {
         })?);
         let fields = node.fields(&KEYS)?;
         let scales = read_scales(&fields.required("noise")?)?;
-        let not_negative = |key: &'static str| fields.required(key)?.not_negative();
         Ok(Self {
             filter_noise,
             speed_noise: motion.speed_noise.unwrap_or(0.0),
             first_speed,
             scales,
-            along_noise: not_negative("alongNoise")?,
-            across_noise: not_negative("acrossNoise")?,
+            along_noise: fields.not_negative("alongNoise")?,
+            across_noise: fields.not_negative("acrossNoise")?,
             time_to_go: TimeToGo::read(&fields.required("timeToGo")?)?,
             start: Start::read(&fields.required("start")?)?,
             direction: Direction::read(&fields.required("direction")?)?,
             power: Power::read(&fields.required("power")?)?,
-            near: not_negative("near")?,
-            none_gain: fields.required("noneGain")?.number()?,
+            near: fields.not_negative("near")?,
+            none_gain: fields.number("noneGain")?,
             none_offset: fields.optional("noneOffset").map_or(Ok(0.0), |node| node.number())?,
             none_share: fields.optional("noneShare").map_or(Ok(0.0), |node| read_share(&node))?,
             uniform: read_share(&fields.required("uniform")?)?,
@@ -259,7 +258,7 @@ pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<[f64; 3]> {
 }
 
 fn read_scales(node: &Node<'_>) -> Result<Vec<f64>> {
-    let scales: Vec<f64> = node.items()?.map(|item| item.positive()).collect::<Result<_>>()?;
+    let scales = node.numbers(|item| item.positive())?;
     if scales.is_empty() || scales.len() > MOST_SCALES {
         let message = format!("must have 1 to {MOST_SCALES} numbers, has {}", scales.len());
         return Err(Error::new(Code::WrongLength, node.path(), message));
@@ -275,8 +274,7 @@ fn read_share(node: &Node<'_>) -> Result<f64> {
 impl TimeToGo {
     fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["from", "to", "points", "median", "spread", "speedExponent"])?;
-        let positive = |key: &'static str| fields.required(key)?.positive();
-        let (from, to) = (positive("from")?, positive("to")?);
+        let (from, to) = (fields.positive("from")?, fields.positive("to")?);
         if from >= to {
             return Err(fields.required("to")?.error(Code::OutOfRange, "must be greater than from"));
         }
@@ -284,9 +282,9 @@ impl TimeToGo {
             from,
             to,
             points: fields.required("points")?.whole(2, MOST_NODES)?,
-            median: positive("median")?,
-            spread: positive("spread")?,
-            speed_exponent: fields.required("speedExponent")?.number()?,
+            median: fields.positive("median")?,
+            spread: fields.positive("spread")?,
+            speed_exponent: fields.number("speedExponent")?,
         })
     }
 
@@ -325,9 +323,9 @@ impl Start {
     fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["exponent", "core", "reach"])?;
         Ok(Self {
-            exponent: fields.required("exponent")?.not_negative()?,
-            core: fields.required("core")?.positive()?,
-            reach: fields.required("reach")?.positive()?,
+            exponent: fields.not_negative("exponent")?,
+            core: fields.positive("core")?,
+            reach: fields.positive("reach")?,
         })
     }
 
@@ -353,7 +351,7 @@ impl Start {
         let width = end / INTERVALS as f64;
         let integrand = |u: f64| {
             let radius = self.core * u.sinh();
-            radius.powi(dimensions as i32 - 1) * (self.core * u.cosh()).powf(1.0 - self.exponent)
+            radius.powi(dimensions as i32 - 1) * ((1.0 - self.exponent) * (self.core * u.cosh()).ln()).exp()
         };
         let inner: f64 = (1..INTERVALS).map(|k| if k % 2 == 1 { 4.0 } else { 2.0 } * integrand(k as f64 * width)).sum();
         (surface * width / 3.0 * (integrand(0.0) + inner + integrand(end))).ln()
@@ -364,11 +362,11 @@ impl Direction {
     fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["power", "core", "wide", "distance", "time"])?;
         Ok(Self {
-            power: fields.required("power")?.not_negative()?,
-            core: fields.required("core")?.positive()?,
-            wide: fields.required("wide")?.positive()?,
-            distance: fields.required("distance")?.positive()?,
-            time: fields.required("time")?.not_negative()?,
+            power: fields.not_negative("power")?,
+            core: fields.positive("core")?,
+            wide: fields.positive("wide")?,
+            distance: fields.positive("distance")?,
+            time: fields.not_negative("time")?,
         })
     }
 
@@ -386,11 +384,7 @@ impl Direction {
 impl Power {
     fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["from", "to", "time"])?;
-        Ok(Self {
-            from: fields.required("from")?.not_negative()?,
-            to: fields.required("to")?.not_negative()?,
-            time: fields.required("time")?.positive()?,
-        })
+        Ok(Self { from: fields.not_negative("from")?, to: fields.not_negative("to")?, time: fields.positive("time")? })
     }
 
     fn to_value(&self) -> Value {

@@ -314,7 +314,7 @@ impl Telescoped {
         let (scale, none) = if none > 0.0 {
             let level = (none / (1.0 - none)).log2() + self.log2_level();
             let log = level - self.shift - total.log2();
-            ((1.0 + log.exp2()).recip(), (1.0 + (-log).exp2()).recip())
+            ((1.0 + exp2(log)).recip(), (1.0 + exp2(-log)).recip())
         } else {
             (1.0, 0.0)
         };
@@ -344,7 +344,7 @@ impl Telescoped {
     /// The sum of the candidates' weights times what their evidence has over that of the first one, as a power of two.
     fn log2_level(&self) -> f64 {
         let top = self.candidates.iter().map(|candidate| self.lead(candidate)).fold(f64::NEG_INFINITY, f64::max);
-        let each = self.candidates.iter().map(|candidate| candidate.weight * (self.lead(candidate) - top).exp2());
+        let each = self.candidates.iter().map(|candidate| candidate.weight * exp2(self.lead(candidate) - top));
         top + each.sum::<f64>().log2()
     }
 
@@ -393,4 +393,9 @@ impl Telescoped {
             candidate.see(class.nodes, nodes, end, elapsed, &self.node_weights, lead, &mut self.work);
         }
     }
+}
+
+/// `2^x`. The standard library's has a table of 4 kB.
+fn exp2(x: f64) -> f64 {
+    (x * std::f64::consts::LN_2).exp()
 }

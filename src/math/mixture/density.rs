@@ -39,11 +39,6 @@ macro_rules! place {
         fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
             Some(([$(at(places.coordinates[$axis], i)?),+], [$(at(places.variances[$axis], i)?),+]))
         }
-
-        #[inline(always)]
-        fn exponent(&self, place: &Self::Place) -> Lanes {
-            <Self as Term<$d>>::exponent_and_factor(self, place).0
-        }
     };
 }
 

@@ -82,16 +82,12 @@ macro_rules! terms {
             }
 
             #[inline(always)]
-            fn exponent(&self, (offsets, square): &Self::Place) -> Lanes {
-                Lanes::splat(self.curvature) * *square
+            fn exponent_and_factor(&self, (offsets, square): &Self::Place) -> (Lanes, Lanes) {
+                let exponent = Lanes::splat(self.curvature) * *square
                     + Lanes::splat(self.slope[$first]) * offsets[$first]
                     $(+ Lanes::splat(self.slope[$rest]) * offsets[$rest])*
-                    + Lanes::splat(self.constant)
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
+                    + Lanes::splat(self.constant);
+                (exponent, Lanes::splat(self.factor))
             }
         }
 
@@ -105,22 +101,18 @@ macro_rules! terms {
             }
 
             #[inline(always)]
-            fn exponent(&self, place: &Self::Place) -> Lanes {
+            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
                 let offsets = [
                     place[$first] - Lanes::splat(self.center[$first]),
                     $(place[$rest] - Lanes::splat(self.center[$rest])),*
                 ];
-                Lanes::splat(self.constant)
+                let exponent = Lanes::splat(self.constant)
                     $(+ offsets[$row] * (
                         Lanes::splat(self.curvature[$row][$row]) * offsets[$row]
                         $(+ Lanes::splat(self.curvature[$row][$column]) * offsets[$column])*
                         + Lanes::splat(self.slope[$row])
-                    ))*
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes) {
-                (<Self as Term<$d>>::exponent(self, place), Lanes::splat(self.factor))
+                    ))*;
+                (exponent, Lanes::splat(self.factor))
             }
         }
 
@@ -134,11 +126,6 @@ macro_rules! terms {
                     [at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*],
                     [at(places.variances[$first], i)?, $(at(places.variances[$rest], i)?),*],
                 ))
-            }
-
-            #[inline(always)]
-            fn exponent(&self, place: &Self::Place) -> Lanes {
-                <Self as Term<$d>>::exponent_and_factor(self, place).0
             }
 
             // over the common denominator, so that one division and one root serve all axes

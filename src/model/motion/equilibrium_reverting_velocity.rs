@@ -49,8 +49,8 @@ pub struct EquilibriumRevertingVelocity {
 
 impl EquilibriumRevertingVelocity {
     pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
-        let stiffness = fields.required("stiffness")?.positive()?;
-        let damping = fields.required("damping")?.not_negative()?;
+        let stiffness = fields.positive("stiffness")?;
+        let damping = fields.not_negative("damping")?;
         let drift = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -stiffness, -damping]);
         let diffusion = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 1.0]);
         Ok(Self { noise, stiffness, damping, equation: VanLoan::new(&drift, &diffusion) })

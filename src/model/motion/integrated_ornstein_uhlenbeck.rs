@@ -44,7 +44,7 @@ pub struct IntegratedOrnsteinUhlenbeck {
 
 impl IntegratedOrnsteinUhlenbeck {
     pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
-        let damping = fields.required("damping")?.not_negative()?;
+        let damping = fields.not_negative("damping")?;
         let drift = match fields.optional("drift") {
             Some(node) => node.for_each_axis(noise.len(), |node| node.number())?,
             None => vec![0.0; noise.len()],

@@ -37,7 +37,7 @@ pub struct MeanReverting {
 
 impl MeanReverting {
     pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
-        Ok(Self { noise, rate: fields.required("rate")?.positive()? })
+        Ok(Self { noise, rate: fields.positive("rate")? })
     }
 }
 

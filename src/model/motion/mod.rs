@@ -394,7 +394,7 @@ impl NoiseCandidates {
             None => None,
             Some(weights) => {
                 weights.vector(Some(count))?;
-                let given = weights.items()?.map(|item| item.positive()).collect::<Result<Vec<f64>>>()?;
+                let given = weights.numbers(|item| item.positive())?;
                 if !given.iter().sum::<f64>().is_finite() {
                     return Err(weights.error(Code::OutOfRange, "must have a finite sum"));
                 }

@@ -1,0 +1,71 @@
+//! The keys of an object.
+
+use super::{Node, Step, Value, quote};
+use crate::error::{Code, Error, Result};
+
+/// An object whose keys have been checked.
+///
+/// ```
+/// use whither::{Value, value::Node};
+/// let value: Value = serde_json::from_str(r#"{ "noise": 3, "matrix": null }"#).unwrap();
+/// let root = Node::root(&value, "observation");
+/// let fields = root.fields(&["noise", "matrix"]).unwrap();
+/// assert_eq!(fields.required("noise").unwrap().number(), Ok(3.0));
+/// assert!(fields.optional("matrix").is_none()); // null counts as absent
+/// assert_eq!(root.fields(&["noise"]).unwrap_err().path(), "observation.matrix");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Fields<'a> {
+    pub(super) entries: &'a [(String, Value)],
+    pub(super) node: &'a Node<'a>,
+}
+
+impl<'a> Fields<'a> {
+    /// The value at `key`, or none where it is absent or null.
+    #[must_use]
+    pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
+        let (_, value) = self.entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
+        Some(Node { value, parent: Some(self.node), step: Step::Key(key) })
+    }
+
+    /// The value at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`.
+    pub fn required(&self, key: &'a str) -> Result<Node<'a>> {
+        self.optional(key).ok_or_else(|| {
+            let path = Node { value: &Value::Null, parent: Some(self.node), step: Step::Key(key) }.path();
+            Error::new(Code::MissingKey, path, format!("missing key {}", quote(key)))
+        })
+    }
+
+    /// [`Node::number`] at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`, and those of [`Node::number`].
+    pub fn number(&self, key: &'a str) -> Result<f64> {
+        self.required(key)?.number()
+    }
+
+    /// [`Node::positive`] at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`, and those of [`Node::positive`].
+    pub fn positive(&self, key: &'a str) -> Result<f64> {
+        self.required(key)?.positive()
+    }
+
+    /// [`Node::not_negative`] at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`, and those of [`Node::not_negative`].
+    pub fn not_negative(&self, key: &'a str) -> Result<f64> {
+        self.required(key)?.not_negative()
+    }
+
+    /// The object itself.
+    #[must_use]
+    pub const fn node(&self) -> &'a Node<'a> {
+        self.node
+    }
+}
