@@ -90,16 +90,18 @@ function showGrowth(of, platforms) {
 }
 
 function showObservations(rows, platforms) {
-  console.log("A step after many observations, N = 21, µs; the exponent is 0 where it does not grow:\n");
+  // the lengths are measured one after another, so the fit is through what each took against `exp` in its own rounds
+  console.log("A step after many observations, N = 21, µs; the exponent, of the ratio to `exp`, is 0 if flat:\n");
   const methods = [...new Set(rows.map(({ method }) => method))];
   const befores = [...new Set(rows.map(({ before }) => before))];
   const cells = methods.flatMap((method) =>
     platforms.map(([platform, cases]) => {
       const times = befores.map((before) => {
         const one = rows.find((row) => row.method === method && row.before === before);
-        return [before, cases[one.name].microseconds];
+        return { before, ...cases[one.name] };
       });
-      return [`${method}, ${platform}`, ...times.map(([, time]) => digits(time)), exponent(times).slope.toFixed(3)];
+      const power = exponent(times.map(({ before, ratio }) => [before, ratio]));
+      return [`${method}, ${platform}`, ...times.map(({ microseconds }) => digits(microseconds)), power.slope.toFixed(3)];
     }),
   );
   table(["", ...befores.map((before) => `after ${count(before)}`), "exponent"], cells);
