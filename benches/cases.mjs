@@ -35,6 +35,8 @@ export function cases({ quick = false } = {}) {
     destinations: both.flatMap((method) => counts.map((count) => ({ method, count }))),
     nodes: [1, 5, 15, 31, 51].map((points) => ({ count: 1000, points })),
     dimensions: [1, 2, 3].map((dimensions) => ({ count: 1000, dimensions })),
+    // the same as on the screen, but spread over a map a hundred screens wide and high
+    map: (quick ? [10_000] : [10_000, 100_000]).map((count) => ({ count, screens: 100 })),
     observations: both.flatMap((method) =>
       (quick ? [100, 10_000] : [100, 10_000, 1_000_000]).map((before) => ({ method, count: 21, before })),
     ),

@@ -71,6 +71,8 @@ function showGrowth(of, platforms) {
   ];
   console.log("Growth with N, q and d, one size:\n");
   table(headings, [...of("destinations"), ...of("nodes"), ...of("dimensions")].map(cells));
+  console.log("The same on a map, a hundred screens wide and high, where most destinations can be left out:\n");
+  table(headings, of("map").map(cells));
   console.log("The lines through it: `µs = fixed + each N`, or q; and the exponent of a power law from N = 1000, or q = 5:\n");
   const fits = [
     ["N, pseudoObservation", of("destinations").filter(({ method }) => method !== "pointing"), "count", 1000],

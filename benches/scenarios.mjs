@@ -3,14 +3,15 @@
 /** Seconds between observations. */
 export const INTERVAL = 0.016;
 
-/** A scenario of `count` targets spread over a screen, and what varies between the rows of the table. */
-function paperScenario({ count, points = 15, dimensions = 2, sizes = "one", method = "pseudoObservation", coupled, length }) {
+/** A scenario of `count` targets spread over so many screens, and what varies between the rows of the table. */
+function paperScenario({ count, points = 15, dimensions = 2, sizes = "one", screens = 1, ...varied }) {
+  const { method = "pseudoObservation", coupled, length } = varied;
   const extent = [1920, 1080, 600];
   const spread = [0.754877666, 0.569840291, 0.438579022];
   const axes = Array.from({ length: dimensions }, (_, axis) => axis);
   const destinations = Array.from({ length: count }, (_, i) => ({
     id: `d${i}`,
-    center: axes.map((axis) => extent[axis] * fraction(i, spread[axis])),
+    center: axes.map((axis) => extent[axis] * (0.5 + screens * (fraction(i, spread[axis]) - 0.5))),
     size: axes.map((axis) => side(i, axis, sizes)),
   }));
   return {

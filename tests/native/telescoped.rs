@@ -3,13 +3,13 @@
 use crate::support::value;
 use nalgebra::DMatrix;
 use serde_json::{Value as Json, json};
-use whither::Scenario;
 use whither::likelihood::Method;
 use whither::likelihood::candidates::Movement;
 use whither::likelihood::plan::Plan;
 use whither::likelihood::telescoped::Telescoped;
 use whither::math::random::Random;
 use whither::posterior::Posterior;
+use whither::{Predictor, Scenario};
 
 /// One of a list, at random.
 fn pick<T: Clone>(random: &mut Random, list: &[T]) -> T {
@@ -200,5 +200,51 @@ fn it_says_what_the_dense_form_says() {
         "largest differences: {:e} in probability, {:e} in log likelihood",
         worst.probability, worst.log_likelihood
     );
+    assert!(worst.probability > 0.0, "compared with itself");
+}
+
+/// Many destinations on a map, of which those far from where the object can get are left out.
+#[test]
+fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
+    let mut worst = Difference { probability: 0.0, log_likelihood: 0.0 };
+    let mut random = Random::new(77);
+    let world = |random: &mut Random, d: usize, size: Json, noise: Json| {
+        let one = |random: &mut Random, i: usize| {
+            let center = vector(random, d, 30_000.0);
+            json!({ "id": format!("h{i}"), "center": center, "size": size, "prior": 0.1 + random.uniform() })
+        };
+        let destinations: Vec<Json> = (0..5000).map(|i| one(random, i)).collect();
+        json!({
+            "motion": { "type": "constantVelocity", "dimensions": d, "noise": noise },
+            "observation": { "noise": 1.5 },
+            "initial": { "velocity": 1000 },
+            "arrival": { "type": "horizon", "from": 0.5, "to": 4 },
+            "quadrature": { "points": 5 },
+            "none": 0.1,
+            "destinations": destinations,
+        })
+    };
+    for json in [
+        world(&mut random, 2, json!(300), json!(90)),
+        world(&mut random, 2, json!([300, 200]), json!([90, 50])),
+        world(&mut random, 3, json!(900), json!(90)),
+        world(&mut random, 1, json!(20), json!(90)),
+    ] {
+        compare(&json, &mut random, &mut worst);
+        let mut predictor = Predictor::new(&Scenario::from_value(&value(&json)).unwrap()).unwrap();
+        let zeros = |predictor: &mut Predictor| predictor.probabilities().iter().filter(|p| **p == 0.0).count();
+        let d = predictor.dimensions();
+        for k in 0..4 {
+            assert_eq!(zeros(&mut predictor), 0, "at first every one is possible");
+            let t = f64::from(k) * 0.5;
+            predictor.observe(t, &[900.0 * t, -400.0 * t, 100.0 * t][..d]).unwrap();
+            if k > 0 {
+                assert!(zeros(&mut predictor) > 2000, "{d} axes: {} left out", zeros(&mut predictor));
+                break;
+            }
+        }
+        let sum = predictor.probabilities().iter().sum::<f64>() + predictor.none();
+        assert!((sum - 1.0).abs() < 1e-12);
+    }
     assert!(worst.probability > 0.0, "compared with itself");
 }

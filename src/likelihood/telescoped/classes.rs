@@ -1,5 +1,6 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
+use super::leaves::{Leaf, MANY, arrange, leaves};
 use super::separable::{AxisEnd, MOST};
 use crate::likelihood::layout::Layout;
 use crate::likelihood::plan::Plan;
@@ -96,6 +97,8 @@ pub struct Class {
     pub size: Option<[f64; MOST]>,
     /// Where they are.
     pub blocks: Range<usize>,
+    /// The same in parts that lie together, where they are many.
+    pub leaves: Vec<Leaf>,
 }
 
 /// All destinations.
@@ -149,10 +152,13 @@ impl Classes {
         for ((nodes, end), drafts) in classes.drafts(destinations, plan) {
             let many = classes.separable && drafts.len() > 1;
             let mut pool = Vec::new();
-            for draft in drafts {
+            for mut draft in drafts {
                 if many && draft.members.len() < WIDTH {
                     pool.extend(draft.members);
                 } else {
+                    if classes.separable && draft.members.len() >= MANY {
+                        arrange(destinations, &mut draft.members);
+                    }
                     classes.place(destinations, &draft.members, (nodes, end, Some(draft.size)));
                 }
             }
@@ -162,6 +168,11 @@ impl Classes {
         let total: f64 = destinations.priors().iter().sum();
         let prior = |(i, stands): (usize, bool)| if stands { destinations.priors()[i] / total } else { 0.0 };
         classes.priors.extend(classes.layout.members().map(|members| members.map(prior)));
+        if classes.separable {
+            for class in classes.classes.iter_mut().filter(|class| class.size.is_some()) {
+                class.leaves = leaves(&classes.layout, &class.blocks, &classes.priors);
+            }
+        }
         classes
     }
 
@@ -207,7 +218,7 @@ impl Classes {
     ) {
         let blocks = self.layout.place(destinations, members, size.is_none());
         if !members.is_empty() {
-            self.classes.push(Class { nodes, end, size, blocks });
+            self.classes.push(Class { nodes, end, size, blocks, leaves: Vec::new() });
         }
     }
 }

@@ -15,6 +15,7 @@
 //! | `coupled` | the same where they do |
 //! | `classes` | the destinations in flat arrays |
 //! | `terms` | the coefficients |
+//! | `leaves` | what can add nothing, of very many destinations |
 //! | `whole` | from separate axes to the whole state and back |
 //! | `math::mixture` | the sum |
 //!
@@ -23,6 +24,7 @@
 mod candidate;
 pub(crate) mod classes;
 pub(crate) mod coupled;
+pub(crate) mod leaves;
 pub(crate) mod separable;
 pub(crate) mod terms;
 mod whole;

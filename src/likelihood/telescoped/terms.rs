@@ -9,9 +9,11 @@
 //! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
 
 use super::classes::{Class, Classes};
+use super::leaves::Bounds;
 use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
+use std::ops::Range;
 
 /// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
 /// too much, and the [`Ellipsoid`] is taken.
@@ -57,6 +59,7 @@ pub struct Work {
     pub ellipsoids: Vec<Ellipsoid>,
     balls: Vec<Ball>,
     owns: Vec<Own>,
+    bounds: Bounds,
 }
 
 /// What a separable source gives for one noise candidate.
@@ -138,23 +141,33 @@ impl Work {
         shift: f64,
         weights: &mut [Block],
     ) -> f64 {
-        let places = classes.layout.places(&class.blocks, origin);
-        let priors = &classes.priors[class.blocks.clone()];
-        let (d, weights) = (classes.dimensions, &mut weights[class.blocks.clone()]);
+        let d = classes.dimensions;
+        let round = class.size.is_some_and(|size| self.balls(d, &size, &origin));
         match class.size {
-            None => {
-                self.owns();
-                weigh_in(d, &self.owns, &places, shift, priors, weights)
-            }
-            Some(size) => {
-                if self.balls(d, &size, &origin) {
-                    weigh_in(d, &self.balls, &places, shift, priors, weights)
-                } else {
-                    self.ellipsoids(d, &size);
-                    weigh_in(d, &self.ellipsoids, &places, shift, priors, weights)
-                }
-            }
+            None => self.owns(),
+            Some(size) if !round => self.ellipsoids(d, &size),
+            Some(_) => {}
         }
+        let Self { owns, balls, ellipsoids, bounds, .. } = self;
+        let leaves = &class.leaves;
+        if !leaves.is_empty() {
+            if round {
+                bounds.see_balls(balls, origin);
+            } else {
+                bounds.see_ellipsoids(ellipsoids);
+            }
+            weights[class.blocks.clone()].fill(ZERO);
+        }
+        let mut part = |blocks: &Range<usize>| {
+            let places = classes.layout.places(blocks, origin);
+            let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
+            match class.size {
+                None => weigh_in(d, owns, &places, shift, priors, weights),
+                Some(_) if round => weigh_in(d, balls, &places, shift, priors, weights),
+                Some(_) => weigh_in(d, ellipsoids, &places, shift, priors, weights),
+            }
+        };
+        if leaves.is_empty() { part(&class.blocks) } else { bounds.sum(leaves, d, shift, part) }
     }
 
     /// Writes `log2` of the sums of a class, whatever their size.

@@ -1,0 +1,132 @@
+//! Many destinations, spread over a map: what lies where nothing can add anything is left out.
+//!
+//! Destinations that lie together stand together, 64 in a leaf with a box around it. On a box each quadratic of the sum has
+//! its largest value where its slope vanishes or at an edge, axis by axis, which bounds the weights of the whole leaf. A leaf
+//! whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left out is less than
+//! 1e-14 of the whole.
+
+use crate::likelihood::layout::Layout;
+use crate::math::lanes::{Block, WIDTH};
+use crate::math::mixture::{AXES, Ball, Ellipsoid};
+use crate::math::order::order;
+use crate::model::destination::Destinations;
+use std::ops::Range;
+
+/// Fewer destinations than this are sooner evaluated than told apart.
+pub const MANY: usize = 4096;
+
+/// How many blocks a leaf has.
+const BLOCKS: usize = 8;
+
+/// All that is left out together lies this many powers of two below the sum.
+const NOTHING: f64 = 47.0;
+
+/// Destinations that lie together.
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    blocks: Range<usize>,
+    /// The least and the largest coordinate in each axis.
+    edges: [(f64, f64); AXES],
+    /// `log2` of the sum of their priors.
+    log_prior: f64,
+}
+
+fn edges(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+/// The order in which many destinations stand: along a curve that fills the space, the bits of their coordinates in turns.
+pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
+    let d = destinations.dimensions();
+    let (before, mut places) = (members.to_vec(), vec![0u64; members.len()]);
+    for axis in 0..d {
+        let center = |i: u32| destinations.center(i as usize)[axis];
+        let (low, high) = edges(before.iter().map(|&i| center(i)));
+        for (place, &i) in places.iter_mut().zip(&before) {
+            let share = ((center(i) - low) / (high - low) * 65_535.0) as u64;
+            *place |= (0..16).map(|bit| (share >> bit & 1) << (bit * d + axis)).sum::<u64>();
+        }
+    }
+    let order = order(members.len(), &|i, j| places[i].cmp(&places[j]));
+    members.iter_mut().zip(order).for_each(|(member, i)| *member = before[i as usize]);
+}
+
+/// The leaves of destinations that stand in these blocks; none where they are few.
+pub fn leaves(layout: &Layout, all: &Range<usize>, priors: &[Block]) -> Vec<Leaf> {
+    let leaf = |start: usize| {
+        let blocks = start..all.end.min(start + BLOCKS);
+        let coordinates = layout.places(&blocks, [0.0; AXES]).coordinates;
+        let log_prior = priors[blocks.clone()].as_flattened().iter().sum::<f64>().log2();
+        let edges = coordinates.map(|list| edges(list.as_flattened().iter().copied()));
+        Leaf { blocks, edges, log_prior }
+    };
+    if all.len() * WIDTH < MANY { Vec::new() } else { all.clone().step_by(BLOCKS).map(leaf).collect() }
+}
+
+/// The largest exponent of a term in a leaf, where axes are not correlated; its factor does not count.
+fn most(term: &Ellipsoid, leaf: &Leaf, dimensions: usize) -> f64 {
+    let mut most = term.constant;
+    for axis in 0..dimensions {
+        let (low, high) = (leaf.edges[axis].0 - term.center[axis], leaf.edges[axis].1 - term.center[axis]);
+        let (curvature, slope) = (term.curvature[axis][axis], term.slope[axis]);
+        let top = -0.5 * slope / curvature;
+        most += if curvature < 0.0 && low < top && top < high {
+            0.5 * slope * top
+        } else {
+            (low * (slope + curvature * low)).max(high * (slope + curvature * high))
+        };
+    }
+    most
+}
+
+/// Room that is kept from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct Bounds {
+    terms: Vec<Ellipsoid>,
+    each: Vec<f64>,
+}
+
+impl Bounds {
+    /// The terms of the sum, about this origin.
+    pub fn see_balls(&mut self, balls: &[Ball], origin: [f64; AXES]) {
+        self.terms.clear();
+        for ball in balls {
+            let a = ball.curvature;
+            let curvature = [[a, 0.0, 0.0], [0.0, a, 0.0], [0.0, 0.0, a]];
+            let constant = ball.constant + ball.factor.log2();
+            self.terms.push(Ellipsoid { center: origin, curvature, slope: ball.slope, constant, factor: 1.0 });
+        }
+    }
+
+    /// The terms of the sum.
+    pub fn see_ellipsoids(&mut self, ellipsoids: &[Ellipsoid]) {
+        self.terms.clear();
+        let whole = |e: &Ellipsoid| Ellipsoid { constant: e.constant + e.factor.log2(), factor: 1.0, ..*e };
+        self.terms.extend(ellipsoids.iter().map(whole));
+    }
+
+    /// The sum over the leaves, of which `weigh` gives one; those that add nothing are left out.
+    pub fn sum(&mut self, leaves: &[Leaf], d: usize, shift: f64, mut weigh: impl FnMut(&Range<usize>) -> f64) -> f64 {
+        self.each.clear();
+        let mut best = (f64::NEG_INFINITY, 0..0);
+        for leaf in leaves {
+            let mut bound = f64::NEG_INFINITY;
+            for term in &self.terms {
+                bound = bound.max(most(term, leaf, d) + leaf.log_prior);
+            }
+            self.each.push(bound);
+            if bound > best.0 {
+                best = (bound, leaf.blocks.clone());
+            }
+        }
+        // the sum is at least what the best leaf gives; all the others may be as large as their bounds
+        let least = weigh(&best.1).log2() + shift - ((leaves.len() * self.terms.len()) as f64).log2() - NOTHING;
+        let mut total = 0.0;
+        for (leaf, bound) in leaves.iter().zip(&self.each) {
+            if !(*bound < least) {
+                total += weigh(&leaf.blocks);
+            }
+        }
+        total
+    }
+}
