@@ -1,12 +1,13 @@
-//! Two more questions to the pointing model: how good is "none of them", with the true target taken out of half of the
+//! Two more questions to a scenario of ours: how good is "none of them", with the true target taken out of half of the
 //! tracks, and how good is the time to the entry into the target.
 
+use crate::methods::Template;
 use comfy_table::{Table, presets};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use whither::study::metrics::{BINS, Bin, calibration_error};
 use whither::study::track::Track;
-use whither::{Predictor, Scenario, Value};
+use whither::{Predictor, Scenario};
 
 /// The priors of "none" that are tried.
 pub const PRIORS: [f64; 2] = [0.2, 0.5];
@@ -37,12 +38,12 @@ pub struct Sums {
 }
 
 /// Runs one track; its number decides whether its target is taken out for the question of "none".
-pub fn ask(template: &Value, track: &Track, approach: usize, number: usize) -> Result<Answers, String> {
+pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -> Result<Answers, String> {
     let told = |error: whither::Error| error.to_string();
     let mut answers = Answers::default();
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
-    let scenario = track.scenario(template, &Value::Null).map_err(told)?;
+    let scenario = track.scenario(&template.scenario, &template.extra).map_err(told)?;
     let mut predictor = Predictor::new(&scenario).map_err(told)?;
     for sample in &samples[..approach - 1] {
         predictor.observe(sample.time, &sample.position).map_err(told)?;
@@ -58,7 +59,7 @@ pub fn ask(template: &Value, track: &Track, approach: usize, number: usize) -> R
         shown.targets.remove(track.target);
     }
     for (answer, prior) in answers.none.iter_mut().zip(PRIORS) {
-        let mut scenario: Scenario = shown.scenario(template, &Value::Null).map_err(told)?;
+        let mut scenario: Scenario = shown.scenario(&template.scenario, &template.extra).map_err(told)?;
         scenario.none = prior;
         let mut predictor = Predictor::new(&scenario).map_err(told)?;
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };

@@ -41,8 +41,8 @@ struct Arguments {
     /// examples/evaluate/scenarios has one of the same name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
-    /// Ask the pointing model two more things: the time to the entry, and "none of them" with the target taken out of half of
-    /// the tracks.
+    /// Ask the first of our scenarios two more things: the time to the entry, and "none of them" with the target taken out of
+    /// half of the tracks.
     #[arg(long)]
     more: bool,
     /// Leave the other predictors out.
@@ -101,7 +101,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     let mut results = Results::default();
     let mut skipped = 0;
-    let mut more = arguments.more.then(More::new).transpose()?;
+    let mut more = arguments.more.then(BTreeMap::new);
     for file in &arguments.files {
         let methods = methods_for(arguments, file)?;
         skipped += evaluate(arguments, file, &methods, &mut results, more.as_mut())?;
@@ -110,7 +110,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return Err("no track enters its target: nothing to score".to_owned());
     }
     results.print(arguments.users);
-    let extras = more.map(|more| extras::report(&more.sums));
+    let extras = more.map(|sums| extras::report(&sums));
     told_skipped(skipped);
     results.write_json(&arguments.json, extras)?;
     let charts = chart::write(&results, &arguments.charts)?;
@@ -138,18 +138,6 @@ fn in_place_of_scores(
 fn told_skipped(lines: usize) {
     if lines > 0 {
         println!("{lines} broken lines skipped, see above");
-    }
-}
-
-/// The further questions: the pointer's scenario, and the answers for each set.
-struct More {
-    template: whither::Value,
-    sums: BTreeMap<String, Sums>,
-}
-
-impl More {
-    fn new() -> Result<Self, String> {
-        Ok(Self { template: Template::pointer()?.scenario, sums: BTreeMap::new() })
     }
 }
 
@@ -182,19 +170,20 @@ fn evaluate(
     file: &Path,
     methods: &[Method],
     results: &mut Results,
-    mut more: Option<&mut More>,
+    mut more: Option<&mut BTreeMap<String, Sums>>,
 ) -> Result<usize, String> {
     let name = reading::name(file);
     let mut sets: Vec<Set> = Vec::new();
-    let template = more.as_ref().map(|more| more.template.clone());
-    let margin = arguments.margin.map_or_else(|| template_for(file).map(|template| template.margin), Ok)?;
+    let template = template_for(file)?;
+    let margin = arguments.margin.unwrap_or(template.margin);
+    let asked = more.is_some().then_some(&template);
     let skipped = reading::each(
         file,
-        |line| score(line, (margin, arguments.every), methods, template.as_ref()),
+        |line| score(line, (margin, arguments.every), methods, asked),
         |(part, user, scores, answers)| {
             report::add(&mut sets, &name, part, methods, &user, &scores);
-            if let (Some(more), Some(answers)) = (more.as_deref_mut(), answers) {
-                more.sums.entry(format!("{name}{part}")).or_default().add(&answers);
+            if let (Some(sums), Some(answers)) = (more.as_deref_mut(), answers) {
+                sums.entry(format!("{name}{part}")).or_default().add(&answers);
             }
         },
     )?;
@@ -208,12 +197,11 @@ fn score(
     line: &reading::Line,
     (margin, every): (f64, usize),
     methods: &[Method],
-    more: Option<&whither::Value>,
+    asked: Option<&Template>,
 ) -> Result<Option<Scored>, String> {
     let track = line.track(margin)?;
     let Some((track, approach)) = Variant::Every(every).of(&track, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    let more = more.filter(|_| track.dimensions() == 2);
-    let answers = more.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;
+    let answers = asked.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;
     Ok(Some((reading::part(&track), track.user, scores, answers)))
 }
