@@ -33,6 +33,7 @@ fn draw(set: &Set, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let area = SVGBackend::new(path, (1100, 480)).into_drawing_area();
     area.fill(&WHITE)?;
     let (left, right) = area.split_horizontally(620);
+    let (right, legend) = right.split_vertically(320);
     let font = ("sans-serif", 14);
     let shown = set.shown();
 
@@ -42,22 +43,24 @@ fn draw(set: &Set, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
         .x_label_area_size(40)
         .y_label_area_size(48)
         .build_cartesian_2d(0.0..100.0, 0.0..100.0)?;
-    course.configure_mesh().x_desc("% of the time").y_desc("% of the movements").label_style(font).draw()?;
-    for ((name, row), colour) in shown.iter().zip(COLOURS.iter().cycle()) {
+    course
+        .configure_mesh()
+        .x_desc("% of the time")
+        .y_desc("% of the movements")
+        .label_style(font)
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| format!("{y:.0}"))
+        .max_light_lines(1)
+        .draw()?;
+    for (line, ((name, row), colour)) in shown.iter().zip(COLOURS.iter().cycle()).enumerate() {
         let total = row.total();
         let points = total.course.iter().enumerate();
         let points = points.map(|(k, right)| (100.0 * k as f64 / (COURSE - 1) as f64, 100.0 * right / total.tracks));
-        course
-            .draw_series(LineSeries::new(points, colour.stroke_width(2)))?
-            .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+        course.draw_series(LineSeries::new(points, colour.stroke_width(2)))?;
+        let height = 18 * line as i32 + 12;
+        legend.draw(&PathElement::new([(60, height), (78, height)], colour.stroke_width(2)))?;
+        legend.draw(&Text::new(name.clone(), (86, height - 7), font))?;
     }
-    course
-        .configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
-        .background_style(WHITE.mix(0.85))
-        .label_font(("sans-serif", 12))
-        .draw()?;
 
     let mut calibration = ChartBuilder::on(&right)
         .caption("calibration of the top probability", font)
@@ -65,7 +68,7 @@ fn draw(set: &Set, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
         .x_label_area_size(40)
         .y_label_area_size(48)
         .build_cartesian_2d(0.0..1.0, 0.0..1.0)?;
-    calibration.configure_mesh().x_desc("predicted").y_desc("happened").label_style(font).draw()?;
+    calibration.configure_mesh().x_desc("predicted").y_desc("happened").label_style(font).max_light_lines(1).draw()?;
     calibration.draw_series(LineSeries::new([(0.0, 0.0), (1.0, 1.0)], BLACK.mix(0.4)))?;
     for ((_, row), colour) in shown.iter().zip(COLOURS.iter().cycle()) {
         let bins = row.total().bins;

@@ -56,16 +56,22 @@ pub fn run(template: &Template, file: &Path, into: &mut Vec<Json>) -> Result<usi
             }
         }
         for (from, constants, tasks) in rows {
-            let gain = learn(template, set, &constants, &tasks).map_err(|error| format!("{set}: {error}"))?;
-            let row = Row::of(&gain);
-            table.add_row([vec![format!("{set}: {from}")], row.cells()].concat());
-            into.push(row.json(set, from));
+            match learn(template, set, &constants, &tasks) {
+                Ok(gain) => {
+                    let row = Row::of(&gain);
+                    table.add_row([vec![format!("{set}: {from}")], row.cells()].concat());
+                    into.push(row.json(set, from));
+                }
+                Err(error) => eprintln!("{}: {set}, {from}: {error}; left out", file.display()),
+            }
         }
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    println!("\nconstants learnt from recorded movements, scored on others\n{table}");
+    if table.row_count() > 0 {
+        println!("\nconstants learnt from recorded movements, scored on others\n{table}");
+    }
     Ok(skipped)
 }
 

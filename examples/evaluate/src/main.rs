@@ -30,10 +30,17 @@ use std::process::ExitCode;
 use variants::Variant;
 use whither::study::metrics::Score;
 
+/// What only the usual tables know.
+const OF_SCORES: [&str; 7] = ["scenario", "more", "ours", "users", "margin", "every", "charts"];
+
+/// What there is to say where nothing was scored.
+const NOTHING: &str = "no track enters its target: nothing to score";
+
 /// Scores predictors on recorded movements.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Files of tracks, one JSON object a line.
+    /// Files of tracks, one JSON object a line: {"id"?, "user"?, "targets": [[x, y, width, height], ...] about their centres,
+    /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z].
     #[arg(required_unless_present = "habits")]
     files: Vec<PathBuf>,
     /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?}: the scenario without its destinations,
@@ -58,13 +65,13 @@ struct Arguments {
     #[arg(long, default_value_t = 1)]
     every: usize,
     /// A table of other circumstances instead: few and many targets, small and wide ones, other sample rates and pixels.
-    #[arg(long, conflicts_with_all = ["fit", "habits"])]
+    #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with_all = ["fit", "habits"])]
     sweep: bool,
     /// Instead, learn constants from half of the users, and from each user's own first movements, and score the rest.
-    #[arg(long, conflicts_with = "habits")]
+    #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "habits")]
     fit: bool,
     /// Instead, simulate users with habits, and tell what learning their habits gains.
-    #[arg(long, conflicts_with = "files")]
+    #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "files")]
     habits: bool,
     /// Where to write the report as JSON.
     #[arg(long, default_value = "target/evaluate/report.json")]
@@ -107,7 +114,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         skipped += evaluate(arguments, file, &methods, &mut results, more.as_mut())?;
     }
     if results.sets.is_empty() {
-        return Err("no track enters its target: nothing to score".to_owned());
+        return Err(NOTHING.to_owned());
     }
     results.print(arguments.users);
     let extras = more.map(|sums| extras::report(&sums));
@@ -130,6 +137,9 @@ fn in_place_of_scores(
         skipped += run(file, &mut all)?;
     }
     told_skipped(skipped);
+    if all.is_empty() {
+        return Err(NOTHING.to_owned());
+    }
     report::write(&arguments.json, &json!({ key: all }))?;
     println!("report: {}", arguments.json.display());
     Ok(())
@@ -204,4 +214,30 @@ fn score(
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
     let answers = asked.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;
     Ok(Some((reading::part(&track), track.user, scores, answers)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound_and_says_what_does_not_go_together() {
+        Arguments::command().debug_assert();
+        let refused = |line: &str| Arguments::try_parse_from(line.split(' ')).is_err();
+        assert!(
+            !refused("evaluate a.jsonl --more")
+                && !refused("evaluate a.jsonl --sweep")
+                && !refused("evaluate --habits")
+        );
+        for line in [
+            "evaluate",
+            "evaluate --fit",
+            "evaluate a --fit --sweep",
+            "evaluate a --habits",
+            "evaluate a --sweep --more",
+        ] {
+            assert!(refused(line), "{line}");
+        }
+    }
 }
