@@ -99,7 +99,8 @@ async function load(): Promise<unknown> {
  * It needs no `init()`. While it searches it keeps its thread busy (some two minutes for a thousand pointing movements), so
  * on a page call it in a worker.
  *
- * For one more person with a mouse there is little to gain: the defaults were learnt from 149 of them.
+ * For one more person with a mouse there is nothing to gain: the defaults were learnt from 149 of them, and constants from
+ * other users are at most .01 nats better on users left out (`docs/pointing.md`). For another device or task it was .15 to .2.
  *
  * @param tracks - At least ten for each constant that enter their target.
  * @param scenario - What to start from; its destinations, if it has any, are replaced by each track's targets.

@@ -10,21 +10,23 @@ import { serve } from "../../scripts/serve.mjs";
 import { project, write } from "./support.mjs";
 
 const readme = readFileSync(join(root, "README.md"), "utf8");
-const [onAPage, inNode, ...rest] = [...readme.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+const [onAPage, inNode, learning, ...rest] = [...readme.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
 
 test("the README's code", async (t) => {
   const { folder } = await project(t);
 
-  await t.test("there are two programs", () => assert.equal(rest.length, 0));
+  await t.test("there are three programs", () => assert.deepEqual([learning !== undefined, rest.length], [true, 0]));
 
-  await t.test("in Node prints what its comments say", async () => {
-    write(folder, "vessel.mjs", inNode);
-    const { code, output } = await capture("node", ["vessel.mjs"], { cwd: folder });
-    assert.equal(code, 0, output);
-    const promised = [...inNode.matchAll(/^console\.log\(.*\); \/\/ (.*)$/gm)].map(([, comment]) => comment);
-    assert.ok(promised.length > 1);
-    assert.deepEqual(output.trim().split("\n"), promised);
-  });
+  for (const [name, program] of Object.entries({ inNode, learning })) {
+    await t.test(`in Node prints what its comments say: ${name}`, async () => {
+      write(folder, `${name}.mjs`, program);
+      const { code, output } = await capture("node", [`${name}.mjs`], { cwd: folder });
+      assert.equal(code, 0, output);
+      const promised = [...program.matchAll(/^console\.log\(.*\); \/\/ (.*)$/gm)].map(([, comment]) => comment);
+      assert.ok(promised.length > 1);
+      assert.deepEqual(output.trim().split("\n"), promised);
+    });
+  }
 
   await t.test("on a page marks the icon that the mouse is going to, before it is there", async () => {
     const icon = (id, left) => `<i data-icon id="${id}" style="position:fixed;top:300px;left:${left}px;width:96px;height:96px"></i>`;
