@@ -34,7 +34,7 @@ use whither::study::metrics::Score;
 const OF_SCORES: [&str; 7] = ["scenario", "more", "ours", "users", "margin", "every", "charts"];
 
 /// What there is to say where nothing was scored.
-const NOTHING: &str = "no track enters its target: nothing to score";
+const NOTHING: &str = "nothing to score: too few tracks enter their target";
 
 /// Scores predictors on recorded movements.
 #[derive(Debug, Parser)]
