@@ -134,7 +134,8 @@ impl Movement {
     /// `out-of-range` where the numbers grow beyond what can be computed with (a drift that explodes); nothing has changed
     /// then.
     pub fn advance(&mut self, destinations: &Destinations, elapsed: f64, measurement: &Measurement) -> Result<()> {
-        let steps = self.worlds.iter().map(|world| {
+        let mut steps = Vec::with_capacity(self.worlds.len());
+        for world in &self.worlds {
             let transition = world.model.transition(elapsed - self.elapsed);
             let mut predicted = world.filter.clone();
             predicted.predict(&TimeUpdate {
@@ -143,9 +144,8 @@ impl Movement {
                 noise: &transition.noise,
             });
             let corrected = correct(predicted.clone(), measurement)?;
-            Ok((transition, predicted, corrected))
-        });
-        let steps = steps.collect::<Result<Vec<_>>>()?;
+            steps.push((transition, predicted, corrected));
+        }
         let elapsed_before = std::mem::replace(&mut self.elapsed, elapsed);
         self.observations += 1;
         for (World { model, filter, engine, .. }, (transition, predicted, corrected)) in

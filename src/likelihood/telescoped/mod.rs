@@ -196,13 +196,15 @@ impl Telescoped {
     /// As [`Movement::advance`]; nothing has changed then.
     pub fn advance(&mut self, elapsed: f64, measurement: &Measurement) -> Result<()> {
         let step = elapsed - self.elapsed;
-        let advanced = self.candidates.iter().map(|candidate| match &candidate.source {
-            Source::Separable { .. } => Ok(None),
-            Source::Coupled(coupled) => {
-                advance_filter(&coupled.filter, candidate.model.as_ref(), step, measurement).map(Some)
-            }
-        });
-        let advanced = advanced.collect::<Result<Vec<_>>>()?;
+        let mut advanced = Vec::with_capacity(self.candidates.len());
+        for candidate in &self.candidates {
+            advanced.push(match &candidate.source {
+                Source::Separable { .. } => None,
+                Source::Coupled(coupled) => {
+                    Some(advance_filter(&coupled.filter, candidate.model.as_ref(), step, measurement)?)
+                }
+            });
+        }
         for (candidate, filter) in self.candidates.iter_mut().zip(advanced) {
             if let (Source::Coupled(coupled), Some(filter)) = (&mut candidate.source, filter) {
                 coupled.filter = filter;
