@@ -8,5 +8,5 @@ import { unpack } from "./unpack.js";
 
 /** The bytes of the engine's WebAssembly. */
 export function embedded(): Promise<ArrayBuffer> {
-  return unpack(base64);
+  return unpack(base64, 'use "whither/slim" with init({ wasm })');
 }

@@ -128,7 +128,8 @@ export class Predictor {
 
   /**
    * The probability of each destination, in the order of {@link destinations}. They sum to `1 - none`; before the first
-   * observation they are the prior.
+   * observation they are the prior. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together have
+   * less than 1e-14.
    *
    * @param into - Where to write them, so that nothing is allocated: as long as there are destinations.
    * @returns `into`, or a new array.

@@ -87,7 +87,7 @@ export interface Fitted<S> {
 let loading: Promise<unknown> | undefined;
 
 async function load(): Promise<unknown> {
-  return start({ module_or_path: await compiled(unpack(base64)) });
+  return start({ module_or_path: await compiled(unpack(base64, "learn where it does")) });
 }
 
 /**
@@ -96,11 +96,11 @@ async function load(): Promise<unknown> {
  * `log p(y_2:k | y_1, D)` for the true destination. The search is Powell's COBYLA over the logarithms of the constants, none
  * moved by more than 20 times.
  *
- * It needs no `init()`. While it searches it keeps its thread busy (some two minutes for a thousand pointing movements), so
+ * It needs no `init()`. While it searches it keeps its thread busy (half a minute for a thousand pointing movements on a fast machine), so
  * on a page call it in a worker.
  *
  * For one more person with a mouse there is nothing to gain: the defaults were learnt from 149 of them, and constants from
- * other users are at most .01 nats better on users left out (`docs/pointing.md`). For another device or task it was .15 to .2.
+ * other users are about .01 nats better at most on users left out (`docs/pointing.md`). For another device or task it was .15 to .2.
  *
  * @param tracks - At least ten for each constant that enter their target.
  * @param scenario - What to start from; its destinations, if it has any, are replaced by each track's targets.

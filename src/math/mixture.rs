@@ -111,36 +111,15 @@ fn term_in<T: Term<1> + Term<2> + Term<3>>(
     }
 }
 
-/// Adds `factor * 2^(exponent - shift)`.
-#[inline(never)]
-fn add(sum: &mut Lanes, (exponent, factor): &(Lanes, Lanes), shift: &Shift) {
-    *sum = *sum + *factor * exponent.exp2(shift);
-}
-
-/// [`weigh`] for any kind of terms: smaller, and slower.
-#[inline(never)]
-fn weigh_any(terms: usize, at: &At<'_>, shift: f64, priors: &[Block], weights: &mut [Block]) -> f64 {
-    let shift = Shift::by(shift);
-    let mut total = Lanes::splat(0.0);
-    for (i, (prior, weight)) in priors.iter().zip(weights).enumerate() {
-        let mut sum = Lanes::splat(0.0);
-        for n in 0..terms {
-            let Some(term) = at(n, i) else { return total.sum() };
-            add(&mut sum, &term, &shift);
-        }
-        let weighed = sum * Lanes::load(prior);
-        weighed.store(weight);
-        total = total + weighed;
-    }
-    total.sum()
-}
-
 /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
 #[inline(never)]
 fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
+    if terms == 0 {
+        return logs.fill([f64::NEG_INFINITY; WIDTH]);
+    }
     let none = Shift::by(0.0);
     for (i, log) in logs.iter_mut().enumerate() {
-        let Some((mut top, _)) = at(0, i) else { return log.fill(f64::NEG_INFINITY) };
+        let Some((mut top, _)) = at(0, i) else { return };
         for n in 1..terms {
             let Some((exponent, _)) = at(n, i) else { return };
             top = exponent.at_least(top);
@@ -148,7 +127,7 @@ fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
         let mut sum = Lanes::splat(0.0);
         for n in 0..terms {
             let Some((exponent, factor)) = at(n, i) else { return };
-            add(&mut sum, &(exponent - top, factor), &none);
+            sum = sum + factor * (exponent - top).exp2(&none);
         }
         let mut tops = [0.0; WIDTH];
         top.store(&mut tops);
@@ -157,7 +136,7 @@ fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
     }
 }
 
-/// [`weigh`] in so many dimensions: two have a loop of their own for each kind of terms, the others share one.
+/// [`weigh`] in so many dimensions.
 pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
     dimensions: usize,
     terms: &[T],
@@ -166,10 +145,10 @@ pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
     priors: &[Block],
     weights: &mut [Block],
 ) -> f64 {
-    if dimensions == 2 {
-        weigh::<2, T>(terms, places, shift, priors, weights)
-    } else {
-        weigh_any(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), shift, priors, weights)
+    match dimensions {
+        1 => weigh::<1, T>(terms, places, shift, priors, weights),
+        2 => weigh::<2, T>(terms, places, shift, priors, weights),
+        _ => weigh::<3, T>(terms, places, shift, priors, weights),
     }
 }
 
@@ -279,9 +258,6 @@ mod tests {
         let ellipsoids = RATIOS.each_ref().map(Ratio::ellipsoid);
         let total = weigh::<2, _>(&ellipsoids, &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ellipsoid");
-        let at = |n, i| term_in(2, &ellipsoids, &places, (n, i));
-        let total = weigh_any(ellipsoids.len(), &at, 0.0, &priors, &mut weights);
-        expect(&weights, total, "any");
         let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
@@ -334,5 +310,16 @@ mod tests {
         let mut logs = [[0.0; WIDTH]];
         log2_sums_in(1, &[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
         assert_eq!(logs[0][..4], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
+    }
+
+    #[test]
+    fn without_terms_nothing_is_possible_anywhere() {
+        let x = line(1.5);
+        let places = Places { coordinates: [x.as_slice(), &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
+        let (mut logs, mut weights) = (vec![[7.0; WIDTH]; 3], vec![[7.0; WIDTH]; 3]);
+        log2_sums_in::<Ball>(1, &[], &places, &mut logs);
+        assert_eq!(logs, [[f64::NEG_INFINITY; WIDTH]; 3]);
+        let total = weigh_in::<Ball>(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
+        assert_eq!((total, weights), (0.0, vec![[0.0; WIDTH]; 3]));
     }
 }

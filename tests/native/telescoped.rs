@@ -248,3 +248,28 @@ fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
     }
     assert!(worst.probability > 0.0, "compared with itself");
 }
+
+/// Twenty destinations whose arrival times have all passed, beside one that can still be reached.
+#[test]
+fn what_can_no_longer_be_reached_in_time_has_no_likelihood() {
+    let gone = |i: usize| {
+        json!({ "id": format!("gone{i}"), "center": [100 * i, 50], "size": 40,
+                "arrival": { "type": "uniform", "from": 0.1, "to": 0.2 } })
+    };
+    let mut destinations: Vec<Json> = (0..20).map(gone).collect();
+    destinations.push(json!({ "id": "left", "center": [500, 300], "size": 40 }));
+    let scenario = json!({
+        "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 900 },
+        "observation": { "noise": 1.5 },
+        "arrival": { "type": "uniform", "from": 1, "to": 3 },
+        "destinations": destinations,
+    });
+    let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap()).unwrap();
+    for k in 0..5 {
+        predictor.observe(0.1 * f64::from(k), &[3.0 * f64::from(k), 2.0]).unwrap();
+    }
+    let (gone, left) = predictor.log_likelihoods().split_at(20);
+    assert!(gone.iter().all(|l| *l == f64::NEG_INFINITY), "{gone:?}");
+    assert!(left[0].is_finite());
+    assert_eq!(predictor.probabilities()[20], 1.0);
+}

@@ -9,7 +9,7 @@ import { sizes } from "../../scripts/size.mjs";
 import { project } from "./support.mjs";
 
 /** A guard: what makes the package heavier than this in gzipped bytes was not weighed. */
-const heaviest = 150_000;
+const heaviest = 152_000;
 
 test("the package", async (t) => {
   const { folder, files } = await project(t);

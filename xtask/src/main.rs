@@ -14,13 +14,10 @@ fn main() -> ExitCode {
     let tool = arguments.peek().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let outcome = match tool.as_str() {
         "bindgen" => wasm_bindgen::run_cli_with_args(arguments),
-        "snip" => match &arguments.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()[..] {
-            [_, from, to] => snip::snip(from, to),
-            _ => Err(anyhow::anyhow!("snip takes two paths: IN and OUT")),
-        },
-        "gzip" => match &arguments.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()[..] {
+        "snip" | "gzip" => match &arguments.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()[..] {
+            [_, from, to] if tool == "snip" => snip::snip(from, to),
             [_, from, to] => gzip(from, to),
-            _ => Err(anyhow::anyhow!("gzip takes two paths: IN and OUT")),
+            _ => Err(anyhow::anyhow!("{tool} takes two paths: IN and OUT")),
         },
         "test-runner" => wasm_bindgen_test_runner::run_cli_with_args(arguments),
         _ => {

@@ -2,7 +2,7 @@
 //! tracks, and how good is the time to the entry into the target.
 
 use crate::methods::Template;
-use comfy_table::{Table, presets};
+use crate::report::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use whither::study::metrics::{BINS, Bin, calibration_error};
@@ -127,8 +127,6 @@ fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
 
 /// Prints a table, and gives the same as JSON.
 pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
     let mut header = vec!["set", "time to the entry: error over samples, s", "over movements, s", "within the 80%"]
         .into_iter()
         .map(str::to_owned)
@@ -137,7 +135,7 @@ pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
         header.push(format!("none at {prior}: calibration error"));
         header.push("area under the curve at 90%".to_owned());
     }
-    table.set_header(header);
+    let mut table = table(header, 1);
     let mut all = serde_json::Map::new();
     for (name, sums) in sets {
         let row = sums.row();

@@ -1,7 +1,7 @@
 //! `--habits`: what an application gains by learning which targets are likely, on simulated users with habits.
 
 use crate::methods::Template;
-use comfy_table::{CellAlignment, Table, presets};
+use crate::report::table;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::math::random::Random;
@@ -28,15 +28,8 @@ const LEARNING: [(&str, &[(&str, f64)]); 3] = [
 
 /// Simulates, prints a table and gives it as JSON.
 pub fn run(template: &Template) -> Result<Json, String> {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
-    table.set_header([
-        "the next target follows from the last",
-        "learnt from",
-        "time %",
-        "log loss",
-        "calibration error",
-    ]);
+    let header = ["the next target follows from the last", "learnt from", "time %", "log loss", "calibration error"];
+    let mut table = table(header, 2);
     let mut rows = Vec::new();
     for habit in HABITS {
         let users = (0..USERS).into_par_iter().map(|user| of_user(template, habit, user));
@@ -51,9 +44,6 @@ pub fn run(template: &Template) -> Result<Json, String> {
             rows.push(json!({ "habit": habit as f64 / 10.0, "learntFrom": name, "tracks": sum.tracks,
                 "time": figures.time, "loss": loss, "calibration": calibration }));
         }
-    }
-    for column in table.column_iter_mut().skip(2) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     println!("\n{USERS} simulated users with habits, 21 targets, after {BEFORE} choices\n{table}");
     Ok(Json::Array(rows))

@@ -2,7 +2,7 @@
 
 use crate::methods::Template;
 use crate::reading;
-use comfy_table::{CellAlignment, Table, presets};
+use crate::report::table;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
@@ -34,18 +34,9 @@ pub fn run(template: &Template, file: &Path, into: &mut Vec<Json>) -> Result<usi
         |line| line.track(template.margin).map(|track| track.approach().map(|_| track)),
         |track| sets.entry(format!("{name}{}", reading::part(&track))).or_default().push(track),
     )?;
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
-    table.set_header([
-        "learnt from",
-        "users",
-        "tracks scored",
-        "time % before",
-        "after",
-        "log loss before",
-        "after",
-        "users who gain",
-    ]);
+    let [time, loss] = ["time % before", "log loss before"];
+    let header = ["learnt from", "users", "tracks scored", time, "after", loss, "after", "users who gain"];
+    let mut table = table(header, 1);
     for (set, tracks) in &sets {
         let (others, halves) = halves(tracks);
         let mut rows = vec![(others, Vec::new(), halves)];
@@ -65,9 +56,6 @@ pub fn run(template: &Template, file: &Path, into: &mut Vec<Json>) -> Result<usi
                 Err(error) => eprintln!("{}: {set}, {from}: {error}; left out", file.display()),
             }
         }
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     if table.row_count() > 0 {
         println!("\nconstants learnt from recorded movements, scored on others\n{table}");

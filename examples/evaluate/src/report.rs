@@ -133,16 +133,9 @@ impl Results {
         for set in &self.sets {
             let Some(first) = set.rows.first() else { continue };
             println!("\n{}: {} tracks of {} users", set.name, first.total().tracks, first.users.len());
-            let mut table = Table::new();
-            table.load_style(presets::ASCII_MARKDOWN);
-            table.set_header(vec!["method", "time %", "log loss", "calibration error", &at, "lead, ms"]);
+            let mut table = table(["method", "time %", "log loss", "calibration error", &at, "lead, ms"], 1);
             for (name, row) in set.shown() {
                 table.add_row([vec![name], row.cells()].concat());
-            }
-            for column in 1..6 {
-                if let Some(column) = table.column_mut(column) {
-                    column.set_cell_alignment(CellAlignment::Right);
-                }
             }
             println!("{table}");
             if by_user {
@@ -162,6 +155,17 @@ impl Results {
     }
 }
 
+/// A table in Markdown: so many columns of text, and numbers after them.
+pub fn table(header: impl Into<comfy_table::Row>, texts: usize) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN);
+    table.set_header(header);
+    for column in table.column_iter_mut().skip(texts) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
 /// Writes JSON, and the folders that it lies in.
 pub fn write(path: &Path, report: &Json) -> Result<(), String> {
     let text = serde_json::to_string_pretty(report).map_err(|error| error.to_string())?;
@@ -172,9 +176,7 @@ pub fn write(path: &Path, report: &Json) -> Result<(), String> {
 }
 
 fn print_users(row: &Row, at: &str) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
-    table.set_header(vec!["user", "tracks", "time %", "log loss", "calibration error", at, "lead, ms"]);
+    let mut table = table(["user", "tracks", "time %", "log loss", "calibration error", at, "lead, ms"], 1);
     for (user, score) in &row.users {
         let tracks = vec![user.clone(), format!("{}", score.tracks)];
         table.add_row([tracks, figure_cells(&score.figures())].concat());

@@ -2,8 +2,8 @@
 
 use crate::peers::Peer;
 use crate::reading::{self, Line};
+use crate::report::table;
 use crate::variants::{ALL, Variant};
-use comfy_table::{CellAlignment, Table, presets};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -100,9 +100,8 @@ impl Row {
 }
 
 fn print(set: &str, rows: &[Row]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
-    table.set_header(["", "tracks", "time %", "log loss", "calibration error", "best extrapolation", "nearest"]);
+    let header = ["", "tracks", "time %", "log loss", "calibration error", "best extrapolation", "nearest"];
+    let mut table = table(header, 1);
     for (variant, row) in ALL.iter().zip(rows) {
         let [time, loss, calibration, extrapolation, nearest] = row.figures();
         let cells = [
@@ -115,9 +114,6 @@ fn print(set: &str, rows: &[Row]) {
             format!("{nearest:.1}"),
         ];
         table.add_row(cells);
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     println!("\n{set}: one setting, other circumstances\n{table}");
 }
