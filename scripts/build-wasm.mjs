@@ -55,6 +55,8 @@ async function compile(feature, file) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
+    // What refers to what, by which `xtask snip` finds what is not in use.
+    "-Clink-arg=--emit-relocs",
     // The same file on every machine: panic messages name source files.
     `--remap-path-prefix=${process.env.CARGO_HOME ?? join(homedir(), ".cargo")}=cargo`,
     `--remap-path-prefix=${sysroot}=rust`,

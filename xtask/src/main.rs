@@ -3,6 +3,7 @@
 //! makes a file smaller before the former, `xtask gzip IN OUT` packs it for good.
 
 mod snip;
+mod unused;
 
 use std::env::args_os;
 use std::process::ExitCode;

@@ -3,14 +3,15 @@
 //! No panic is reachable through the public interface (tests and fuzzers hold that, natively and with every check on), but
 //! the compiler cannot know it: each index that it cannot prove keeps a call with the place and the text of a panic, and
 //! with them the formatting of numbers and of debugging text. A panic ends as a trap in any case, since nothing prints its
-//! message; here it becomes the trap itself. No check is removed. The places that panics would have named are blanked: zeros
-//! weigh nothing.
+//! message; here it becomes the trap itself. No check is removed. What only panics would have told and called goes with them.
 
 use std::collections::HashSet;
 
 use anyhow::{Context, Result, bail};
-use walrus::ir::{Instr, InstrSeqId, Unreachable, Value, Visitor, dfs_in_order};
-use walrus::{ConstExpr, DataKind, FunctionId, LocalFunction, Module, ModuleConfig};
+use walrus::ir::{Instr, InstrSeqId, Unreachable, Visitor, dfs_in_order};
+use walrus::{FunctionId, LocalFunction, ModuleConfig};
+
+use crate::unused::References;
 
 /// What the names of the functions contain that only ever panic, in either mangling.
 const PANICS: [&str; 14] = [
@@ -32,7 +33,9 @@ const PANICS: [&str; 14] = [
 
 /// Writes to `to` what `from` is without its panics.
 pub fn snip(from: &str, to: &str) -> Result<()> {
-    let mut module = ModuleConfig::new().parse_file(from).with_context(|| format!("cannot read {from}"))?;
+    let file = std::fs::read(from).with_context(|| format!("cannot read {from}"))?;
+    let mut module = ModuleConfig::new().parse(&file).with_context(|| format!("cannot read {from}"))?;
+    let references = References::read(&file, &module)?;
     let mut traps: HashSet<FunctionId> = module
         .funcs
         .iter()
@@ -61,35 +64,13 @@ pub fn snip(from: &str, to: &str) -> Result<()> {
             break;
         }
     }
-    blank_places(&mut module);
+    let trap = *traps.iter().min().context("no panic")?;
+    references.drop_unused(&mut module, trap);
     module.emit_wasm_file(to)
 }
 
-/// Blanks what panics alone read: each `core::panic::Location` (where the name of a source file is, its length, a line, a
-/// column) and the names.
-fn blank_places(module: &mut Module) {
-    let segments: Vec<_> = module.data.iter().map(walrus::Data::id).collect();
-    for id in segments {
-        let data = module.data.get_mut(id);
-        let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else { continue };
-        let bytes = &mut data.value;
-        let word =
-            |bytes: &[u8], at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap_or_default()) as usize;
-        let mut names = Vec::new();
-        for at in (0..bytes.len().saturating_sub(15)).step_by(4) {
-            let (name, length) = (word(bytes, at).wrapping_sub(start as usize), word(bytes, at + 4));
-            let file = bytes.get(name..name.saturating_add(length)).is_some_and(|name| name.ends_with(b".rs"));
-            if file && word(bytes, at + 8) < 1 << 16 && word(bytes, at + 12) < 1 << 10 {
-                bytes[at..at + 16].fill(0);
-                names.push(name..name + length);
-            }
-        }
-        names.into_iter().for_each(|name| bytes[name].fill(0));
-    }
-}
-
 /// The sequences of a function, outer ones first.
-fn sequences(function: &LocalFunction) -> Vec<InstrSeqId> {
+pub fn sequences(function: &LocalFunction) -> Vec<InstrSeqId> {
     struct Seen(Vec<InstrSeqId>);
     impl<'a> Visitor<'a> for Seen {
         fn start_instr_seq(&mut self, sequence: &'a walrus::ir::InstrSeq) {
