@@ -96,6 +96,8 @@
 //! - Ardeshiri, Table 1, line 12: `(I - K C) P`, not `(I - K) P`.
 //! - Rezaie and Li (12): the `x_k` on the right-hand side is `x_{k-1}`.
 #![forbid(unsafe_code)]
+// What only the methods of the papers use stays in the sources of a build without them, and is left out by the linker.
+#![cfg_attr(not(feature = "papers"), allow(dead_code))]
 
 pub mod conditionally_markov;
 pub mod error;

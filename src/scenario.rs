@@ -15,9 +15,9 @@
 //! ```
 
 use crate::error::{Code, Error, Result};
-use crate::likelihood::Method;
 use crate::likelihood::plan::Plan;
 use crate::likelihood::pointing::parameters::Parameters;
+use crate::likelihood::{Method, Papers};
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
@@ -100,6 +100,8 @@ pub enum Engine {
         arrival: Arrival,
         /// How the arrival time is summed over.
         quadrature: Quadrature,
+        /// That such a method is part of this build.
+        built: Papers,
     },
     /// The pointing model.
     Pointing(Arc<Parameters>),
@@ -155,7 +157,7 @@ impl Scenario {
     /// `method-accumulates`, `too-large`, `not-positive-definite`; `unknown-key` with the pointing model, which has nodes of
     /// its own.
     pub(crate) fn check_destinations(&self, destinations: &Destinations) -> Result<()> {
-        let Engine::Papers { method, arrival, quadrature } = &self.engine else {
+        let Engine::Papers { method, arrival, quadrature, .. } = &self.engine else {
             return check_for_pointing(destinations);
         };
         self.check_size(destinations, *method, arrival, quadrature)?;
@@ -242,7 +244,7 @@ impl Scenario {
         ];
         let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
         match &self.engine {
-            Engine::Papers { method, arrival, quadrature } => {
+            Engine::Papers { method, arrival, quadrature, .. } => {
                 put("arrival", arrival.to_value());
                 put("quadrature", quadrature.to_value());
                 put("method", Value::text(method.name()));
@@ -273,11 +275,16 @@ const POINTING: &str = "pointing";
 
 impl Engine {
     fn read(fields: &Fields<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
-        let names = Method::NAMES.map(|(name, method)| (name, Some(method)));
-        let mut words = vec![(POINTING, None)];
-        words.splice(0..0, names);
-        let method = fields.optional("method").map_or(Ok(Some(Method::PseudoObservation)), |m| m.word(&words))?;
-        let Some(method) = method else {
+        let (given, pointing) = (fields.optional("method"), (POINTING, None));
+        let method = match Papers::built() {
+            Some(built) => {
+                let mut words = Method::NAMES.map(|(name, method)| (name, Some((method, built)))).to_vec();
+                words.push(pointing);
+                given.map_or(Ok(Some((Method::PseudoObservation, built))), |given| given.word(&words))?
+            }
+            None => fields.required("method")?.word(&[pointing])?,
+        };
+        let Some((method, built)) = method else {
             for key in ["arrival", "quadrature"] {
                 if let Some(extra) = fields.optional(key) {
                     return Err(extra.error(Code::UnknownKey, "has no place with the method \"pointing\""));
@@ -296,7 +303,7 @@ impl Engine {
         let arrival = Arrival::read(&fields.required("arrival")?)?;
         let quadrature =
             fields.optional("quadrature").map_or_else(|| Ok(Quadrature::default()), |q| Quadrature::read(&q))?;
-        Ok(Self::Papers { method, arrival, quadrature })
+        Ok(Self::Papers { method, arrival, quadrature, built })
     }
 
     /// The arrival nodes of destinations, where a method of the papers needs them.

@@ -26,7 +26,7 @@ use std::sync::Arc;
 ///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 ///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 /// }"#).unwrap();
-/// let Engine::Papers { method, arrival, quadrature } = &scenario.engine else { panic!() };
+/// let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { panic!() };
 /// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
 /// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
 /// let movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);
@@ -65,7 +65,7 @@ impl Clone for World {
 ///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 ///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 /// }"#).unwrap();
-/// let Engine::Papers { method, arrival, quadrature } = &scenario.engine else { panic!() };
+/// let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { panic!() };
 /// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
 /// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
 /// let mut movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);

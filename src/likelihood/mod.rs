@@ -33,6 +33,33 @@ use nalgebra::{DMatrix, DVector};
 use plan::{Group, Plan};
 use std::fmt;
 
+/// Witness that the methods of the papers are part of this build, the feature `papers`. Without it there is no value of this
+/// type, so whatever holds one cannot be, and the compiler leaves out all that works on it.
+///
+/// ```
+/// use whither::likelihood::Papers;
+/// assert!(Papers::built().is_some()); // by default
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Papers(Built);
+
+#[cfg(feature = "papers")]
+type Built = ();
+/// A type without values.
+#[cfg(not(feature = "papers"))]
+type Built = std::convert::Infallible;
+
+impl Papers {
+    /// The witness, where the methods of the papers are part of this build.
+    #[must_use]
+    pub const fn built() -> Option<Self> {
+        #[cfg(feature = "papers")]
+        return Some(Self(()));
+        #[cfg(not(feature = "papers"))]
+        None
+    }
+}
+
 /// The six methods of the papers.
 ///
 /// ```

@@ -57,7 +57,18 @@ pub struct Kind {
     pub arrival: Option<Arrival>,
 }
 
-const KEYS: [&str; 8] = ["id", "mean", "covariance", "center", "size", "endVelocity", "prior", "arrival"];
+/// The pointing model has no arrival prior.
+const KEYS: &[&str] = &[
+    "id",
+    "mean",
+    "covariance",
+    "center",
+    "size",
+    "endVelocity",
+    "prior",
+    #[cfg(feature = "papers")]
+    "arrival",
+];
 
 impl Destination {
     /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`, for a
@@ -67,10 +78,11 @@ impl Destination {
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
     pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
-        let fields = node.fields(&KEYS)?;
+        let fields = node.fields(KEYS)?;
         let id = fields.required("id")?.text()?.to_owned();
         let prior = fields.optional("prior").map_or(Ok(1.0), |prior| prior.not_negative())?;
-        let arrival = fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?;
+        let arrival = fields.optional("arrival").filter(|_| cfg!(feature = "papers"));
+        let arrival = arrival.map(|arrival| Arrival::read(&arrival)).transpose()?;
         let Some(center) = fields.optional("center") else {
             for key in ["size", "endVelocity"] {
                 if let Some(extra) = fields.optional(key) {

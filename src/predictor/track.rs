@@ -2,12 +2,12 @@
 
 use super::Remaining;
 use crate::error::{Code, Error, Result};
-use crate::likelihood::Method;
 use crate::likelihood::candidates::Movement;
 use crate::likelihood::plan::Plan;
 use crate::likelihood::pointing::course::Course;
 use crate::likelihood::pointing::{Pointing, parameters::axis_variances};
 use crate::likelihood::telescoped::Telescoped;
+use crate::likelihood::{Method, Papers};
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
 use crate::posterior::Posterior;
@@ -32,12 +32,14 @@ pub(crate) struct Track {
 #[derive(Clone, Debug)]
 enum Followed {
     Papers {
+        _built: Papers,
         movement: Movement,
         /// The movement before every node had passed: what the probabilities stay at.
         frozen: Option<Box<Movement>>,
     },
     /// `pseudoObservation` where the motion model does not know the destination.
     Telescoped {
+        _built: Papers,
         now: Box<Telescoped>,
         /// As it was before every node had passed.
         before: Option<Box<Telescoped>>,
@@ -79,15 +81,15 @@ impl Track {
         let first = scenario.initial.posterior(&scenario.observation, &measurement)?;
         let start = first.mean.as_slice()[..destinations.dimensions()].to_vec();
         let followed = match &scenario.engine {
-            Engine::Papers { method, arrival, quadrature } => {
+            Engine::Papers { method, arrival, quadrature, built } => {
                 let plan = Plan::new(destinations, arrival, quadrature, &start);
                 if telescopes(scenario) {
                     let separately = scenario.observation.is_position();
                     let now = Telescoped::begin(&scenario.motion, destinations, &plan, &first, separately);
-                    Followed::Telescoped { now: Box::new(now), before: None, dense: None }
+                    Followed::Telescoped { _built: *built, now: Box::new(now), before: None, dense: None }
                 } else {
                     let movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
-                    Followed::Papers { movement, frozen: None }
+                    Followed::Papers { _built: *built, movement, frozen: None }
                 }
             }
             Engine::Pointing(parameters) => {
@@ -122,7 +124,7 @@ impl Track {
         let elapsed = observed.time - self.first_time;
         let measurement = || scenario.observation.measurement(observed.position, Some(observed.noise));
         match &mut self.followed {
-            Followed::Papers { movement, frozen } => {
+            Followed::Papers { movement, frozen, .. } => {
                 let expires = frozen.is_none() && !movement.plan.is_alive(elapsed);
                 let last = expires.then(|| Box::new(movement.clone()));
                 movement.advance(destinations, elapsed, &measurement()?)?;
@@ -130,7 +132,7 @@ impl Track {
                     *frozen = last;
                 }
             }
-            Followed::Telescoped { now, before, dense } => {
+            Followed::Telescoped { now, before, dense, .. } => {
                 let expires = before.is_none() && !now.is_alive(elapsed);
                 let last = expires.then(|| now.clone());
                 let separate = observed.variances().filter(|_| now.is_separable());
@@ -160,7 +162,7 @@ impl Track {
     /// Brings the probabilities up to date.
     pub(super) fn update(&mut self, posterior: &mut Posterior, destinations: &Destinations, none: f64) {
         match &mut self.followed {
-            Followed::Papers { movement, frozen } => {
+            Followed::Papers { movement, frozen, .. } => {
                 posterior.update(frozen.as_deref().unwrap_or(movement), destinations, none);
             }
             Followed::Telescoped { now, before, .. } => {
@@ -194,8 +196,8 @@ impl Track {
         posterior: &mut Posterior,
     ) -> Option<(&Movement, &Movement)> {
         match &mut self.followed {
-            Followed::Papers { movement, frozen } => Some((movement, frozen.as_deref().unwrap_or(movement))),
-            Followed::Telescoped { now, before, dense } => {
+            Followed::Papers { movement, frozen, .. } => Some((movement, frozen.as_deref().unwrap_or(movement))),
+            Followed::Telescoped { now, before, dense, .. } => {
                 if dense.is_none() {
                     let both = densely(now, before.as_deref(), scenario, destinations, &self.start)?;
                     posterior.weigh_nodes(both.1.as_ref().unwrap_or(&both.0), destinations);
@@ -286,7 +288,7 @@ impl Track {
     /// Other destinations in mid-movement; `origin` tells which old one each was, where the motion model knows them.
     pub(super) fn replan(&mut self, scenario: &Scenario, destinations: &Destinations, origin: Option<&[usize]>) {
         match &mut self.followed {
-            Followed::Papers { movement, frozen } => {
+            Followed::Papers { movement, frozen, .. } => {
                 let Some(plan) = scenario.engine.plan(destinations, &self.start) else { return };
                 let alive = plan.is_alive(movement.elapsed);
                 movement.replan(plan.clone(), origin);
@@ -299,7 +301,7 @@ impl Track {
                     None => Some(Box::new(movement.clone())),
                 };
             }
-            Followed::Telescoped { now, before, dense } => {
+            Followed::Telescoped { now, before, dense, .. } => {
                 let Some(plan) = scenario.engine.plan(destinations, &self.start) else { return };
                 let separately = scenario.observation.is_position();
                 now.replan(destinations, &plan, separately);
@@ -326,7 +328,7 @@ impl Track {
                         (movement.save(), before.map_or(Value::Null, |before| before.save()))
                     })
             }
-            Followed::Papers { movement, frozen } => {
+            Followed::Papers { movement, frozen, .. } => {
                 (movement.save(), frozen.as_ref().map_or(Value::Null, |movement| movement.save()))
             }
             Followed::Pointing(pointing) => (pointing.course().save(), Value::Null),
@@ -357,7 +359,7 @@ impl Track {
         let start = fields.required("start")?.exact_numbers(destinations.dimensions())?;
         let saved = fields.required("movement")?;
         let followed = match &scenario.engine {
-            Engine::Papers { method, arrival, quadrature } => {
+            Engine::Papers { method, arrival, quadrature, built } => {
                 let load = |node: &Node<'_>| {
                     let plan = Plan::new(destinations, arrival, quadrature, &start);
                     Movement::load(node, &scenario.motion, *method, destinations, plan)
@@ -372,9 +374,14 @@ impl Track {
                         Box::new(resumed.with_shifts(shifts))
                     };
                     let before = frozen.as_deref().map(|before| resume(before, [shifts[2], shifts[3]]));
-                    Followed::Telescoped { now: resume(&movement, [shifts[0], shifts[1]]), before, dense: None }
+                    Followed::Telescoped {
+                        _built: *built,
+                        now: resume(&movement, [shifts[0], shifts[1]]),
+                        before,
+                        dense: None,
+                    }
                 } else {
-                    Followed::Papers { movement, frozen }
+                    Followed::Papers { _built: *built, movement, frozen }
                 }
             }
             Engine::Pointing(parameters) => {

@@ -11,7 +11,7 @@ mod fit;
 mod pointer;
 #[cfg(feature = "wasm")]
 mod predictor;
-#[cfg(feature = "wasm")]
+#[cfg(all(feature = "wasm", feature = "papers"))]
 mod sequence;
 
 use error::WhitherError;

@@ -7,10 +7,14 @@
 //! Source: Liang (1) with `F` the identity; tied at both ends it is the Brownian bridge. `noise` is in units of length per
 //! second^0.5.
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::value::Value;
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 3] = ["type", "dimensions", "noise"];
+pub(super) const KIND: (&str, Kind) = (
+    "brownian",
+    Kind { keys: &["type", "dimensions", "noise"], build: |_, noise, _| Ok(Arc::new(Brownian::new(noise))) },
+);
 
 /// Brownian motion; `s = d`.
 ///
@@ -27,7 +31,7 @@ pub struct Brownian {
 }
 
 impl Brownian {
-    pub(super) const fn new(noise: Vec<f64>) -> Self {
+    const fn new(noise: Vec<f64>) -> Self {
         Self { noise }
     }
 }

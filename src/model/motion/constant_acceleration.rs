@@ -9,10 +9,17 @@
 //! Source: Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation", 6.2.3 (the
 //! continuous Wiener process acceleration model). `noise` is in units of length per second^2.5.
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::value::Value;
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 3] = ["type", "dimensions", "noise"];
+pub(super) const KIND: (&str, Kind) = (
+    "constantAcceleration",
+    Kind {
+        keys: &["type", "dimensions", "noise"],
+        build: |_, noise, _| Ok(Arc::new(ConstantAcceleration::new(noise))),
+    },
+);
 
 /// Nearly constant acceleration; `s = 3d`.
 ///
@@ -32,7 +39,7 @@ pub struct ConstantAcceleration {
 }
 
 impl ConstantAcceleration {
-    pub(super) const fn new(noise: Vec<f64>) -> Self {
+    const fn new(noise: Vec<f64>) -> Self {
         Self { noise }
     }
 }

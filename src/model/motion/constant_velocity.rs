@@ -8,10 +8,17 @@
 //! Source: Liang et al., after (1); Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and
 //! Navigation", 6.2.2 (the continuous white-noise acceleration model). `noise` is in units of length per second^1.5.
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::value::Value;
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 4] = ["type", "dimensions", "noise", "speedNoise"];
+pub(super) const KIND: (&str, Kind) = (
+    "constantVelocity",
+    Kind {
+        keys: &["type", "dimensions", "noise", "speedNoise"],
+        build: |_, noise, _| Ok(Arc::new(ConstantVelocity::new(noise))),
+    },
+);
 
 /// Nearly constant velocity; `s = 2d`.
 ///
@@ -29,7 +36,7 @@ pub struct ConstantVelocity {
 }
 
 impl ConstantVelocity {
-    pub(super) const fn new(noise: Vec<f64>) -> Self {
+    const fn new(noise: Vec<f64>) -> Self {
         Self { noise }
     }
 }

@@ -12,13 +12,20 @@
 //! The methods `bridging` and `singleFilter` need noise that leads to each component of the endpoint.
 //! A drift that grows overflows where `exp(A h)` does: a step of 1000 time constants is `e^1000`.
 
-use super::{AxisTransition, MotionModel, Transition};
+use super::{AxisTransition, Kind, MotionModel, Transition};
 use crate::error::{Code, Result};
 use crate::math::van_loan::VanLoan;
 use crate::value::{Fields, Node, Value};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 6] = ["type", "dimensions", "drift", "offset", "destinationGain", "diffusion"];
+pub(super) const KIND: (&str, Kind) = (
+    "custom",
+    Kind {
+        keys: &["type", "dimensions", "drift", "offset", "destinationGain", "diffusion"],
+        build: |fields, _, dimensions| Ok(Arc::new(Custom::read(fields, dimensions)?)),
+    },
+);
 
 /// The most state components that a custom model can have.
 pub const MAX_STATES: usize = 64;
@@ -52,7 +59,7 @@ pub struct Custom {
 }
 
 impl Custom {
-    pub(super) fn read(fields: &Fields<'_>, dimensions: usize) -> Result<Self> {
+    fn read(fields: &Fields<'_>, dimensions: usize) -> Result<Self> {
         let node = fields.required("drift")?;
         let states = node.items()?.len();
         if states < dimensions {

@@ -14,13 +14,20 @@
 //! (short steps, near the critical damping, almost no damping). [`VanLoan`] is as accurate in all of them, so it is the
 //! one form here; the tests compare it with the closed forms, computed with 150 digits.
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::error::Result;
 use crate::math::van_loan::VanLoan;
 use crate::value::{Fields, Value};
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 5] = ["type", "dimensions", "noise", "stiffness", "damping"];
+pub(super) const KIND: (&str, Kind) = (
+    "equilibriumRevertingVelocity",
+    Kind {
+        keys: &["type", "dimensions", "noise", "stiffness", "damping"],
+        build: |fields, noise, _| Ok(Arc::new(EquilibriumRevertingVelocity::read(fields, noise)?)),
+    },
+);
 
 /// A damped spring towards the destination; `s = 2d`.
 ///
@@ -48,7 +55,7 @@ pub struct EquilibriumRevertingVelocity {
 }
 
 impl EquilibriumRevertingVelocity {
-    pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
+    fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
         let stiffness = fields.positive("stiffness")?;
         let damping = fields.not_negative("damping")?;
         let drift = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -stiffness, -damping]);

@@ -12,12 +12,19 @@
 //! long-term prediction", IEEE Transactions on Aerospace and Electronic Systems 52 (2016). Without damping it is
 //! `constantVelocity`. The quotients come from [`math::decay`](crate::math::decay), exact for small `x`.
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::error::Result;
 use crate::math::decay::{decay, decay_ramp, decay_square};
 use crate::value::{Fields, Value};
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 5] = ["type", "dimensions", "noise", "damping", "drift"];
+pub(super) const KIND: (&str, Kind) = (
+    "integratedOrnsteinUhlenbeck",
+    Kind {
+        keys: &["type", "dimensions", "noise", "damping", "drift"],
+        build: |fields, noise, _| Ok(Arc::new(IntegratedOrnsteinUhlenbeck::read(fields, noise)?)),
+    },
+);
 
 /// Integrated Ornstein-Uhlenbeck motion; `s = 2d`.
 ///
@@ -43,7 +50,7 @@ pub struct IntegratedOrnsteinUhlenbeck {
 }
 
 impl IntegratedOrnsteinUhlenbeck {
-    pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
+    fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
         let damping = fields.not_negative("damping")?;
         let drift = match fields.optional("drift") {
             Some(node) => node.for_each_axis(noise.len(), |node| node.number())?,

@@ -7,12 +7,19 @@
 //! Source: Liang et al., after (1) (the Ornstein-Uhlenbeck process), and their \[13\], Ahmad et al., "Bayesian intent
 //! prediction in object tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 
-use super::{AxisTransition, MotionModel, axis_value};
+use super::{AxisTransition, Kind, MotionModel, axis_value};
 use crate::error::Result;
 use crate::math::decay::decay;
 use crate::value::{Fields, Value};
+use std::sync::Arc;
 
-pub(super) const KEYS: [&str; 4] = ["type", "dimensions", "noise", "rate"];
+pub(super) const KIND: (&str, Kind) = (
+    "meanReverting",
+    Kind {
+        keys: &["type", "dimensions", "noise", "rate"],
+        build: |fields, noise, _| Ok(Arc::new(MeanReverting::read(fields, noise)?)),
+    },
+);
 
 /// Motion that reverts to the destination; `s = d`.
 ///
@@ -36,7 +43,7 @@ pub struct MeanReverting {
 }
 
 impl MeanReverting {
-    pub(super) fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
+    fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
         Ok(Self { noise, rate: fields.positive("rate")? })
     }
 }

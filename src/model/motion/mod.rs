@@ -21,7 +21,7 @@
 //! | `custom` | [`custom`] | any | any |
 
 use crate::error::{Code, Error, Result};
-use crate::value::{Node, Value};
+use crate::value::{Fields, Node, Value};
 use nalgebra::{DMatrix, DVector};
 use std::fmt;
 use std::sync::Arc;
@@ -209,40 +209,31 @@ pub struct Motion {
     given_weights: Option<Vec<f64>>,
 }
 
+/// One `type`: the keys that it has, and how it is built from them and, of each axis, the noise.
 #[derive(Clone, Copy)]
-enum Kind {
-    Brownian,
-    ConstantVelocity,
-    ConstantAcceleration,
-    IntegratedOrnsteinUhlenbeck,
-    MeanReverting,
-    EquilibriumRevertingVelocity,
-    Custom,
+struct Kind {
+    keys: &'static [&'static str],
+    build: Build,
 }
 
-const KINDS: [(&str, Kind); 7] = [
-    ("brownian", Kind::Brownian),
-    ("constantVelocity", Kind::ConstantVelocity),
-    ("constantAcceleration", Kind::ConstantAcceleration),
-    ("integratedOrnsteinUhlenbeck", Kind::IntegratedOrnsteinUhlenbeck),
-    ("meanReverting", Kind::MeanReverting),
-    ("equilibriumRevertingVelocity", Kind::EquilibriumRevertingVelocity),
-    ("custom", Kind::Custom),
+type Build = fn(&Fields<'_>, Vec<f64>, usize) -> Result<Arc<dyn MotionModel>>;
+
+/// Every `type`; without the methods of the papers the one that the pointing model moves by.
+const KINDS: &[(&str, Kind)] = &[
+    #[cfg(feature = "papers")]
+    brownian::KIND,
+    constant_velocity::KIND,
+    #[cfg(feature = "papers")]
+    constant_acceleration::KIND,
+    #[cfg(feature = "papers")]
+    integrated_ornstein_uhlenbeck::KIND,
+    #[cfg(feature = "papers")]
+    mean_reverting::KIND,
+    #[cfg(feature = "papers")]
+    equilibrium_reverting_velocity::KIND,
+    #[cfg(feature = "papers")]
+    custom::KIND,
 ];
-
-impl Kind {
-    const fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Brownian => &brownian::KEYS,
-            Self::ConstantVelocity => &constant_velocity::KEYS,
-            Self::ConstantAcceleration => &constant_acceleration::KEYS,
-            Self::IntegratedOrnsteinUhlenbeck => &integrated_ornstein_uhlenbeck::KEYS,
-            Self::MeanReverting => &mean_reverting::KEYS,
-            Self::EquilibriumRevertingVelocity => &equilibrium_reverting_velocity::KEYS,
-            Self::Custom => &custom::KEYS,
-        }
-    }
-}
 
 impl Motion {
     /// Reads `{ "type", "dimensions", ... }`.
@@ -251,28 +242,14 @@ impl Motion {
     /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`,
     /// `not-positive-definite`.
     pub fn read(node: &Node<'_>) -> Result<Self> {
-        let kind = node.tag("type", &KINDS)?;
-        let fields = node.fields(kind.keys())?;
+        let kind = node.tag("type", KINDS)?;
+        let fields = node.fields(kind.keys)?;
         let dimensions = dimensions(&fields.required("dimensions")?)?;
-        let noise = match kind {
-            Kind::Custom => NoiseCandidates::fixed(Vec::new()),
-            _ => NoiseCandidates::read(&fields.required("noise")?, dimensions)?,
+        let noise = match kind.keys.contains(&"noise") {
+            true => NoiseCandidates::read(&fields.required("noise")?, dimensions)?,
+            false => NoiseCandidates::fixed(Vec::new()),
         };
-        let build = |noise: Vec<f64>| -> Result<Arc<dyn MotionModel>> {
-            Ok(match kind {
-                Kind::Brownian => Arc::new(brownian::Brownian::new(noise)),
-                Kind::ConstantVelocity => Arc::new(constant_velocity::ConstantVelocity::new(noise)),
-                Kind::ConstantAcceleration => Arc::new(constant_acceleration::ConstantAcceleration::new(noise)),
-                Kind::IntegratedOrnsteinUhlenbeck => {
-                    Arc::new(integrated_ornstein_uhlenbeck::IntegratedOrnsteinUhlenbeck::read(&fields, noise)?)
-                }
-                Kind::MeanReverting => Arc::new(mean_reverting::MeanReverting::read(&fields, noise)?),
-                Kind::EquilibriumRevertingVelocity => {
-                    Arc::new(equilibrium_reverting_velocity::EquilibriumRevertingVelocity::read(&fields, noise)?)
-                }
-                Kind::Custom => Arc::new(custom::Custom::read(&fields, dimensions)?),
-            })
-        };
+        let build = |noise: Vec<f64>| (kind.build)(&fields, noise, dimensions);
         let models = noise.noises.into_iter().map(build).collect::<Result<Vec<_>>>()?;
         let speed_noise = match fields.optional("speedNoise") {
             Some(node) => Some(node.not_negative()?),
