@@ -1,6 +1,7 @@
 //! Snapshots: a predictor as plain data, versioned and sealed, from which what follows is identical to the bit.
 
 use crate::error::{Code, Error, Result};
+use crate::math::order::checksum;
 use crate::model::habits::Habits;
 use crate::predictor::{Predictor, Track};
 use crate::scenario::Scenario;
@@ -88,14 +89,9 @@ impl Predictor {
     }
 }
 
-/// A checksum over everything in a snapshot's body: FNV-1a over its words, rotated so that every bit reaches every other
-/// (a product alone would let two flipped signs cancel).
+/// A checksum over everything in a snapshot's body.
 fn seal(body: &Value) -> Value {
     let mut words = Vec::new();
     body.bits(&mut words);
-    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
-    for word in words {
-        hash = (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
-    }
-    Value::Text(format!("{hash:016x}"))
+    Value::Text(format!("{:016x}", checksum(&words)))
 }

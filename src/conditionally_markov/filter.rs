@@ -8,6 +8,7 @@ use super::model::{Model, StepModel};
 use crate::error::Result;
 use crate::math::gaussian::{Gaussian, condition, symmetrise};
 use crate::math::kalman::Measurement;
+use crate::math::product::{apply, product, product_transposed};
 use nalgebra::{DMatrix, DVector};
 
 /// The density of the state now and of the pinned states ahead, given the measurements so far.
@@ -54,16 +55,18 @@ impl Filter {
         let s = model.offset.len();
         let p = &mut self.joint.covariance;
         let size = p.nrows();
-        let mut rows = &model.previous * p.rows(0, s) + &model.destination * p.rows(s, s);
-        let mut now = rows.columns(0, s) * model.previous.transpose()
-            + rows.columns(s, s) * model.destination.transpose()
+        let block = |first: usize| p.rows(first, s).into_owned();
+        let mut rows = product(&model.previous, &block(0)) + product(&model.destination, &block(s));
+        let mut now = product_transposed(&rows.columns(0, s).into_owned(), &model.previous)
+            + product_transposed(&rows.columns(s, s).into_owned(), &model.destination)
             + &model.covariance;
         symmetrise(&mut now);
         rows.columns_mut(0, s).copy_from(&now);
         p.rows_mut(0, s).copy_from(&rows);
         p.view_mut((s, 0), (size - s, s)).tr_copy_from(&rows.columns(s, size - s));
         let mean = &mut self.joint.mean;
-        let moved = &model.previous * mean.rows(0, s) + &model.destination * mean.rows(s, s) + &model.offset;
+        let block = |first: usize| mean.rows(first, s).into_owned();
+        let moved = apply(&model.previous, &block(0)) + apply(&model.destination, &block(s)) + &model.offset;
         mean.rows_mut(0, s).copy_from(&moved);
     }
 
@@ -74,8 +77,8 @@ impl Filter {
         matrix.columns_mut(0, s).copy_from(&measurement.matrix);
         // the noise is positive definite, so the prediction error's covariance is
         if let Some(conditioning) = condition(&self.joint.covariance, &matrix, &measurement.noise) {
-            let error = &measurement.value - matrix * &self.joint.mean;
-            self.joint.mean += &conditioning.gain * error;
+            let error = &measurement.value - apply(&matrix, &self.joint.mean);
+            self.joint.mean += apply(&conditioning.gain, &error);
             self.joint.covariance = conditioning.covariance();
         }
     }

@@ -10,6 +10,7 @@
 
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, Gaussian, propagate};
+use crate::math::product::{apply, product};
 use crate::model::arrival::MAX_TIME;
 use crate::model::bridge::Bridge;
 use crate::model::motion::{Motion, MotionModel};
@@ -235,10 +236,10 @@ impl Model {
             Evolution::Given(steps) => {
                 let (first, others) = (&steps[from], &steps[from + 1..to]);
                 Ok(others.iter().fold(first.clone(), |so_far, next| StepModel {
-                    destination: &next.previous * so_far.destination + &next.destination,
-                    offset: &next.previous * so_far.offset + &next.offset,
+                    destination: product(&next.previous, &so_far.destination) + &next.destination,
+                    offset: apply(&next.previous, &so_far.offset) + &next.offset,
                     covariance: propagate(&next.previous, &so_far.covariance, &next.covariance),
-                    previous: &next.previous * so_far.previous,
+                    previous: product(&next.previous, &so_far.previous),
                 }))
             }
         }
@@ -319,7 +320,7 @@ fn read_boundary(node: &Node<'_>) -> Result<(Gaussian, usize)> {
         }
     }
     let mut covariance = DMatrix::zeros(2 * s, 2 * s);
-    let cross = &gain * &c_n;
+    let cross = product(&gain, &c_n);
     covariance.view_mut((0, 0), (s, s)).copy_from(&propagate(&gain, &c_n, &g_0));
     covariance.view_mut((0, s), (s, s)).copy_from(&cross);
     covariance.view_mut((s, 0), (s, s)).tr_copy_from(&cross);

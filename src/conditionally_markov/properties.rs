@@ -11,6 +11,7 @@
 use super::model::{Model, StepModel};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Factor;
+use crate::math::product::product;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether every equation of Theorem 3.2 holds, with or without `k = 0`, to `tolerance` of the larger side.
@@ -36,7 +37,7 @@ fn between_pins(model: &Model, tolerance: f64) -> Result<bool> {
             {
                 return Ok(false);
             }
-            next = Some(step.previous.transpose() * left);
+            next = Some(product(&step.previous.transpose(), &left));
         }
     }
     Ok(true)
@@ -60,7 +61,7 @@ fn of_pins(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
             let (rows, columns) = (scale.rows(i * s, s).into_owned(), scale.rows(j * s, s).into_owned());
             let agrees = if j == i + 1 {
                 let step = model.step(pins[i] + 1)?;
-                let right = step.previous.transpose() * towards(&step, pins[i] + 1)?;
+                let right = product(&step.previous.transpose(), &towards(&step, pins[i] + 1)?);
                 agree(&left, &right, &rows, &columns, tolerance)
             } else {
                 // a partial correlation of two pins that no path of the movement explains

@@ -2,6 +2,7 @@
 
 use super::model::Model;
 use crate::error::{Code, Error, Result};
+use crate::math::product::apply;
 use crate::math::random::Random;
 use nalgebra::{DMatrix, DVector};
 
@@ -23,7 +24,7 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
     let mut sequences = vec![vec![0.0; length]; count];
     let root = semidefinite_root(&model.pinned.covariance);
     for sequence in &mut sequences {
-        let drawn = &model.pinned.mean + &root * normal(root.nrows());
+        let drawn = &model.pinned.mean + apply(&root, &normal(root.nrows()));
         for (pin, state) in model.pins.iter().zip(drawn.as_slice().chunks(s)) {
             sequence[pin * s..(pin + 1) * s].copy_from_slice(state);
         }
@@ -34,8 +35,8 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
             let root = semidefinite_root(&step.covariance);
             for sequence in &mut sequences {
                 let at = |k: usize| DVector::from_column_slice(&sequence[k * s..(k + 1) * s]);
-                let state =
-                    &step.previous * at(k - 1) + &step.destination * at(pair[1]) + &step.offset + &root * normal(s);
+                let towards = apply(&step.previous, &at(k - 1)) + apply(&step.destination, &at(pair[1]));
+                let state = towards + &step.offset + apply(&root, &normal(s));
                 sequence[k * s..(k + 1) * s].copy_from_slice(state.as_slice());
             }
         }

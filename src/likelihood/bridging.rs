@@ -23,6 +23,7 @@
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
 use crate::math::gaussian::{condition, propagate};
+use crate::math::product::apply;
 use crate::model::bridge::Bridge;
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
@@ -89,14 +90,14 @@ impl Likelihood for Bridging {
                 let i = i as usize;
                 let row = scene.plan.rows[i] + node.index;
                 let place = row * stride;
-                let mut mean = &onward * DVector::from_column_slice(&self.means[place..place + s + l]);
+                let mut mean = apply(&onward, &DVector::from_column_slice(&self.means[place..place + s + l]));
                 let center = scene.destinations.center(i);
                 let offset = bridge.offset(&h.constant(center), &r.constant(center));
                 mean.rows_mut(0, s).zip_apply(&offset, |x, o| *x += o);
                 if let Some(correction) = &correction {
-                    let error = &step.measurement.value - &observation * &mean;
+                    let error = &step.measurement.value - apply(&observation, &mean);
                     self.table[row] += correction.prediction_error.log_density(&error);
-                    mean += &correction.gain * error;
+                    mean += apply(&correction.gain, &error);
                 }
                 self.means[place..place + s + l].copy_from_slice(mean.as_slice());
             }

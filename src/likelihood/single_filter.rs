@@ -28,6 +28,7 @@
 
 use super::{Likelihood, Scene};
 use crate::math::gaussian::{Factor, LN_2_PI, propagate, root, triangularise};
+use crate::math::product::product;
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
@@ -105,14 +106,15 @@ impl Integral {
         both.view_mut((0, 0), (s, s)).fill_with_identity();
         both.view_mut((s, s), (l, s)).copy_from(&now.matrix);
         let mut array = DMatrix::zeros(s + l, 2 * s + l);
-        array.columns_mut(0, 2 * s).copy_from(&(both * &scene.filter.root));
+        array.columns_mut(0, 2 * s).copy_from(&product(&both, &scene.filter.root));
         array.view_mut((s, 2 * s), (l, l)).copy_from(&root(&now.noise));
         let root = triangularise(array);
         let ends = root.rows(s, l).into_owned();
-        let gap = &ends - &start.matrix * root.rows(0, s);
+        let gap = &ends - product(&start.matrix, &root.rows(0, s).into_owned());
         let endpoint = Factor::new(covariance.clone())?;
         let denominator = Factor::new(start.noise.clone())?;
-        let mut precision = ends.transpose() * endpoint.solve(&ends) - gap.transpose() * denominator.solve(&gap);
+        let mut precision = product(&ends.transpose(), &endpoint.solve(&ends));
+        precision -= product(&gap.transpose(), &denominator.solve(&gap));
         for i in 0..s + l {
             precision[(i, i)] += 1.0;
         }
@@ -128,7 +130,7 @@ impl Integral {
         let column = |v: &DVector<f64>| DMatrix::from_column_slice(v.len(), 1, v.as_slice());
         let (b, r) = (column(endpoint), column(denominator));
         let (solved_b, solved_r) = (self.endpoint.solve(&b), self.denominator.solve(&r));
-        let linear = self.ends.transpose() * &solved_b + self.gap.transpose() * &solved_r;
+        let linear = product(&self.ends.transpose(), &solved_b) + product(&self.gap.transpose(), &solved_r);
         let quadratic = linear.dot(&self.precision.solve(&linear));
         self.log_constant + 0.5 * (quadratic + r.dot(&solved_r) - b.dot(&solved_b))
     }

@@ -7,6 +7,7 @@
 //! keeps a covariance positive only as long as its components span less than the sixteen digits of a double: a wide start
 //! and tiny noise lose it. What is a root times its transpose is positive whatever the rounding.
 
+use super::product::{product, product_transposed};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// `ln(2 pi)`.
@@ -162,11 +163,18 @@ pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> O
     let (m, n) = h.shape();
     let mut array = DMatrix::zeros(m + n, m + n);
     array.view_mut((0, 0), (m, m)).copy_from(&root(r));
-    array.view_mut((0, m), (m, n)).copy_from(&(h * l));
+    array.view_mut((0, m), (m, n)).copy_from(&product(h, l));
     array.view_mut((m, m), (n, n)).copy_from(l);
     let array = triangularise(array);
     let spread = array.view((0, 0), (m, m)).into_owned();
-    let gain = spread.tr_solve_lower_triangular(&array.view((m, 0), (n, m)).transpose())?.transpose();
+    // K from K S^1/2, the last column first
+    let mut gain = array.view((m, 0), (n, m)).into_owned();
+    for j in (0..m).rev() {
+        for i in 0..n {
+            let others: f64 = (j + 1..m).map(|k| gain[(i, k)] * spread[(k, j)]).sum();
+            gain[(i, j)] = (gain[(i, j)] - others) / spread[(j, j)];
+        }
+    }
     Some(Conditioning {
         gain,
         root: array.view((m, m), (n, n)).into_owned(),
@@ -177,9 +185,9 @@ pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> O
 /// `L L'`, symmetric to the bit.
 #[must_use]
 pub fn square(root: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut product = root * root.transpose();
-    symmetrise(&mut product);
-    product
+    let mut squared = product_transposed(root, root);
+    symmetrise(&mut squared);
+    squared
 }
 
 /// A root of a positive semi-definite matrix, `P = A A'`: Cholesky's, with the largest pivot first and every component in
@@ -242,14 +250,14 @@ pub fn triangularise(mut a: DMatrix<f64>) -> DMatrix<f64> {
             a[(r, i)] *= sign;
         }
     }
-    a.resize_horizontally(n, 0.0)
+    DMatrix::from_fn(n, n, |i, j| if j < m { a[(i, j)] } else { 0.0 })
 }
 
 /// `F P F' + Q`, kept symmetric.
 #[must_use]
 #[inline(never)]
 pub fn propagate(f: &DMatrix<f64>, p: &DMatrix<f64>, q: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut covariance = f * p * f.transpose() + q;
+    let mut covariance = product_transposed(&product(f, p), f) + q;
     symmetrise(&mut covariance);
     covariance
 }

@@ -8,6 +8,7 @@ pub(crate) mod lanes;
 pub mod log_sum_exp;
 pub(crate) mod mixture;
 pub mod order;
+pub mod product;
 pub mod quadrature;
 pub mod random;
 pub mod small_root;

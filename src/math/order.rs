@@ -2,7 +2,7 @@
 //! weighs several kilobytes each time.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
+use std::ops::Range;
 
 /// The indices below `count` in the order that `compare` gives; what is equal keeps its order.
 ///
@@ -37,17 +37,80 @@ pub fn sorted(numbers: &[f64]) -> Vec<f64> {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Numbering {
-    known: HashMap<Box<[u64]>, usize>,
+    /// The keys one after the other, and where each is.
+    words: Vec<u64>,
+    known: Vec<Range<usize>>,
+    /// The numbers, each where the checksum of its key leads or in the next free place after it; twice as many places as keys
+    /// or more, a power of two.
+    places: Vec<u32>,
 }
+
+/// A place where there is no number.
+const FREE: u32 = u32::MAX;
 
 impl Numbering {
     /// The number of `key`, and whether it is new.
     pub fn of(&mut self, key: &[u64]) -> (usize, bool) {
-        if let Some(&number) = self.known.get(key) {
-            return (number, false);
+        let next = self.known.len();
+        if 2 * next >= self.places.len() {
+            self.places = vec![FREE; (4 * next).max(16)];
+            for number in 0..next {
+                let place = self.place(&self.words[self.known[number].clone()]);
+                self.places[place] = number as u32;
+            }
         }
-        let number = self.known.len();
-        self.known.insert(key.into(), number);
-        (number, true)
+        let place = self.place(key);
+        if self.places[place] != FREE {
+            return (self.places[place] as usize, false);
+        }
+        self.places[place] = next as u32;
+        self.known.push(self.words.len()..self.words.len() + key.len());
+        self.words.extend_from_slice(key);
+        (next, true)
+    }
+
+    /// Where the number of `key` is, or where it would be.
+    fn place(&self, key: &[u64]) -> usize {
+        let last = self.places.len() - 1;
+        let mut place = checksum(key) as usize & last;
+        while self.places[place] != FREE && self.words[self.known[self.places[place] as usize].clone()] != *key {
+            place = (place + 1) & last;
+        }
+        place
+    }
+}
+
+/// FNV-1a over words, rotated so that every bit reaches every other (a product alone would let two flipped signs cancel).
+///
+/// ```
+/// use whither::math::order::checksum;
+/// assert_ne!(checksum(&[1, 2]), checksum(&[2, 1]));
+/// ```
+#[must_use]
+pub fn checksum(words: &[u64]) -> u64 {
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    for word in words {
+        hash = (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29);
+    }
+    hash
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_keys_keep_their_numbers() {
+        let mut numbering = Numbering::default();
+        let keys: Vec<Vec<u64>> =
+            (0..5000u64).map(|k| vec![(k as f64 * 12.0).to_bits(); (k % 4) as usize + 1]).collect();
+        for round in 0..2 {
+            for (number, key) in keys.iter().enumerate() {
+                assert_eq!(numbering.of(key), (number, round == 0));
+            }
+        }
+        // no longer than it takes to tell them apart
+        assert_eq!(numbering.of(&[]), (5000, true));
+        assert_eq!(numbering.of(&[]), (5000, false));
     }
 }

@@ -11,6 +11,7 @@
 //! conditionally Markov sequences move by it.
 
 use crate::math::gaussian::condition;
+use crate::math::product::{apply, product};
 use nalgebra::{DMatrix, DVector};
 
 /// `x_k = previous x_{k-1} + destination (G~ x_T) + offset + e`, `e ~ N(0, covariance)`.
@@ -74,9 +75,9 @@ impl Bridge {
             });
         }
         let conditioned = condition(step_noise, &seen, &unseen)?;
-        kept -= &conditioned.gain * &seen;
+        kept -= product(&conditioned.gain, &seen);
         Some(Self {
-            previous: &kept * step_transition,
+            previous: product(&kept, step_transition),
             covariance: conditioned.covariance(),
             destination: conditioned.gain,
             kept,
@@ -87,7 +88,7 @@ impl Bridge {
     #[must_use]
     pub fn offset(&self, step_offset: &DVector<f64>, rest_offset: &DVector<f64>) -> DVector<f64> {
         let components = self.destination.ncols();
-        &self.kept * step_offset - &self.destination * rest_offset.rows(0, components)
+        apply(&self.kept, step_offset) - apply(&self.destination, &rest_offset.rows(0, components).into_owned())
     }
 }
 

@@ -4,6 +4,7 @@ use super::observation::{ObservationModel, read_covariance};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Gaussian, condition};
 use crate::math::kalman::Measurement;
+use crate::math::product::apply;
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 
@@ -100,11 +101,14 @@ impl Initial {
                 if first.value.is_empty() {
                     return Ok(prior.clone());
                 }
-                let error = &first.value - &first.matrix * &prior.mean;
+                let error = &first.value - apply(&first.matrix, &prior.mean);
                 let conditioning = condition(&prior.covariance, &first.matrix, &first.noise).ok_or_else(|| {
                     Error::new(Code::NotPositiveDefinite, "noise", "the first observation has no density")
                 })?;
-                Ok(Gaussian { mean: &prior.mean + &conditioning.gain * error, covariance: conditioning.covariance() })
+                Ok(Gaussian {
+                    mean: &prior.mean + apply(&conditioning.gain, &error),
+                    covariance: conditioning.covariance(),
+                })
             }
             Prior::Flat(deviations) => {
                 let (axes, states) = (model.axes(), first.matrix.ncols());

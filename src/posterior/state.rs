@@ -7,6 +7,7 @@
 use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
 use crate::math::gaussian::{Gaussian, condition, propagate, symmetrise};
+use crate::math::product::apply;
 use crate::model::destination::Destinations;
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
@@ -81,9 +82,9 @@ impl Posterior {
                             continue;
                         }
                         let center = destinations.center(i);
-                        let mean = &onward.transition * world.filter.mean(i) + onward.constant(center);
+                        let mean = apply(&onward.transition, &world.filter.mean(i)) + onward.constant(center);
                         let error = rest.error(destinations.mean(i), &mean, center);
-                        moments.add(weight, mean + &conditioned.gain * error, &remaining);
+                        moments.add(weight, mean + apply(&conditioned.gain, &error), &remaining);
                     }
                 }
             }

@@ -17,7 +17,7 @@ const RUST: [(&str, &[&str]); 13] = [
     ("scenario", &["math", "model", "likelihood"]),
     ("pointer", &["scenario"]),
     ("predictor", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
-    ("snapshot", &["model", "likelihood", "posterior", "scenario", "predictor"]),
+    ("snapshot", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
     ("study", &["math", "model", "likelihood", "scenario", "predictor", "snapshot", "study"]),
     ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"]),
 ];

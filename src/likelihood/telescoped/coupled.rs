@@ -2,9 +2,10 @@
 //! Gaussian with correlations. What the endpoint names beyond the position is conditioned on, as in [`super::separable`].
 
 use super::classes::End;
-use crate::math::gaussian::Gaussian;
+use crate::math::gaussian::{Gaussian, propagate};
 use crate::math::kalman::Filter;
 use crate::math::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
+use crate::math::product::apply;
 use crate::model::motion::{MotionModel, Transition};
 use nalgebra::DVector;
 
@@ -29,8 +30,8 @@ impl Coupled {
     /// What the first observation says of the state `elapsed` after it.
     pub fn foresee(&self, model: &dyn MotionModel, elapsed: f64) -> Gaussian {
         let step = model.transition(elapsed);
-        let covariance = &step.transition * &self.first.covariance * step.transition.transpose() + step.noise;
-        Gaussian { mean: step.transition * &self.first.mean + step.offset, covariance }
+        let covariance = propagate(&step.transition, &self.first.covariance, &step.noise);
+        Gaussian { mean: apply(&step.transition, &self.first.mean) + step.offset, covariance }
     }
 }
 

@@ -14,6 +14,7 @@
 
 use super::{AxisTransition, Kind, MotionModel, Transition};
 use crate::error::{Code, Result};
+use crate::math::product::{apply, product};
 use crate::math::van_loan::VanLoan;
 use crate::value::{Fields, Node, Value};
 use nalgebra::{DMatrix, DVector};
@@ -105,11 +106,11 @@ impl MotionModel for Custom {
         let over = self.equation.step(step);
         Transition {
             offset: match &self.offset {
-                Some(offset) => &over.integral * offset,
+                Some(offset) => apply(&over.integral, offset),
                 None => DVector::zeros(self.states()),
             },
             destination_gain: match &self.destination_gain {
-                Some(gain) if self.depends_on_destination() => Some(&over.integral * gain),
+                Some(gain) if self.depends_on_destination() => Some(product(&over.integral, gain)),
                 _ => None,
             },
             transition: over.transition,

@@ -8,6 +8,7 @@ use super::Shares;
 use crate::likelihood::pointing::endpoint::{Pair, spread};
 use crate::likelihood::pointing::{Pointing, Symmetric, minus, vector};
 use crate::math::gaussian::{Conditioning, Gaussian, condition_root, root, square, triangularise};
+use crate::math::product::apply;
 use crate::model::destination::Destinations;
 use crate::posterior::state::Moments;
 use nalgebra::{DMatrix, DVector};
@@ -47,7 +48,7 @@ impl Pointing {
                     continue;
                 }
                 let error = minus(&offset, &self.course().velocity().map(|v| v * pair.time));
-                let mean = &view.mean + gain * DVector::from_column_slice(&error[..d]);
+                let mean = &view.mean + apply(gain, &DVector::from_column_slice(&error[..d]));
                 moments.add(weight, mean, covariance);
             }
         }
