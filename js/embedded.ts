@@ -1,12 +1,33 @@
 /**
- * The engine that is inside the package.
+ * `init` of the entries that have their WebAssembly inside.
  *
  * @module
  */
 import { base64 } from "./generated/bytes.js";
+import { load } from "./glue.js";
+import type { WasmSource } from "./source.js";
 import { unpack } from "./unpack.js";
 
-/** The bytes of the engine's WebAssembly. */
-export function embedded(): Promise<ArrayBuffer> {
-  return unpack(base64, 'use "whither/slim" with init({ wasm })');
+/** What {@link init} takes. */
+export interface InitOptions {
+  /** Where the WebAssembly is; left out: the copy inside the package. */
+  readonly wasm?: WasmSource | undefined;
+}
+
+/**
+ * Loads the WebAssembly, alike in a browser, a worker, Node, Deno and Bun: nothing is fetched, the bytes are in the package.
+ * Call it as often as you like: it loads once, two calls at once share one, and it can be tried again after a failure.
+ *
+ * @param options - Another place of the WebAssembly. Once it is loaded, or loading, this is not looked at.
+ * @throws {@link WhitherError} `wasm-unavailable` where WebAssembly is not allowed: a page with a Content-Security-Policy needs
+ * `'wasm-unsafe-eval'` in its `script-src`, and nothing else.
+ *
+ * @example
+ * ```ts
+ * import { init } from "whither";
+ * await init();
+ * ```
+ */
+export function init(options?: InitOptions): Promise<void> {
+  return load(() => options?.wasm ?? unpack(base64, `use init({ wasm }), as with "whither/slim"`));
 }

@@ -1,21 +1,7 @@
 /**
- * What every entry exports besides its own `init`.
+ * What the entries with all methods export besides their own `init`.
  *
  * @module
  */
-export { WhitherError, type ErrorCode } from "./error.js";
-export type { Gaussian } from "./gaussian.js";
-export { initSync } from "./glue.js";
-export { pointerScenario } from "./pointer.js";
-export {
-  Predictor,
-  type ArrivalTime,
-  type Best,
-  type ObserveOptions,
-  type Position,
-  type Remaining,
-  type Snapshot,
-} from "./predictor.js";
-export type * from "./scenario.js";
+export * from "./predicting.js";
 export { ConditionallyMarkovSequence, type GivenSequence, type SequenceParameters, type StepModel } from "./sequence.js";
-export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "./source.js";

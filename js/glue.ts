@@ -3,17 +3,12 @@
  *
  * @module
  */
-import start, {
-  Engine,
-  initSync as startNow,
-  pointer_scenario,
-  SequenceEngine,
-  type InitOutput,
-} from "./generated/whither.js";
+import start, { initSync as startNow, type InitOutput } from "./generated/whither.js";
 import { WhitherError } from "./error.js";
 import { compiled, compiledNow, unavailable, type CompiledModule, type WasmSource } from "./source.js";
 
-export { Engine, pointer_scenario, SequenceEngine };
+// in `whither/pointing` that of another module, which has no SequenceEngine
+export * from "./generated/whither.js";
 
 let running: InitOutput | undefined;
 let loading: Promise<void> | undefined;
@@ -44,7 +39,7 @@ async function instantiate(source: () => WasmSource): Promise<void> {
  * Loads the WebAssembly without waiting, for those who have compiled it already, or have its bytes where the thread may be
  * blocked. Does nothing where it is loaded.
  *
- * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm`.
+ * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm` (in `whither/pointing` of `whither/pointing.wasm`).
  * @throws {@link WhitherError} `wasm-unavailable`, `wrong-type`.
  */
 export function initSync(options: { module: CompiledModule | ArrayBuffer | ArrayBufferView }): void {
@@ -59,7 +54,8 @@ export function initSync(options: { module: CompiledModule | ArrayBuffer | Array
 
 /** The generated code would keep whatever it is given, so another module must not reach it. */
 function ours(module: WebAssembly.Module): WebAssembly.Module {
-  const missing = ["__wbindgen_start", "engine_new"].find(
+  const last = WASM_FILE === "whither.wasm" ? "sequenceengine_new" : "engine_new";
+  const missing = ["__wbindgen_start", last].find(
     (name) => !WebAssembly.Module.exports(module).some((item) => item.name === name),
   );
   if (missing !== undefined) throw unfit(new Error(`it has no ${missing}`));
@@ -68,7 +64,7 @@ function ours(module: WebAssembly.Module): WebAssembly.Module {
 
 function unfit(error: unknown): WhitherError {
   const reason = error instanceof Error ? error.message : String(error);
-  return unavailable(`the module is not this version's whither.wasm: ${reason}`, error);
+  return unavailable(`the module is not this version's ${WASM_FILE}: ${reason}`, error);
 }
 
 /** The memory of the running module. It is another buffer each time the memory has grown. */

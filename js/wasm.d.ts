@@ -3,3 +3,6 @@ declare module "*.wasm" {
   const compiledModule: WebAssembly.Module;
   export default compiledModule;
 }
+
+/** The file that an entry loads; the build puts it in. */
+declare const WASM_FILE: "whither.wasm" | "pointing.wasm";

@@ -4,11 +4,11 @@
  * @module
  */
 import { load } from "./glue.js";
-import type { InitOptions } from "./index.js";
+import type { InitOptions } from "./embedded.js";
 import compiledModule from "./whither.wasm";
 
 export * from "./exports.js";
-export type { InitOptions } from "./index.js";
+export type { InitOptions } from "./embedded.js";
 
 /** As in `whither`: {@link index!init}. */
 export function init(options?: InitOptions): Promise<void> {

@@ -1,5 +1,5 @@
-// From src/ to js/generated/: the WebAssembly, small, its JavaScript side, and its bytes as a module; once for what predicts
-// and once for what learns.
+// From src/ to js/generated/: the WebAssembly, small, its JavaScript side, and its bytes as a module; once for all that
+// predicts, once for the pointing model alone and once for what learns.
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { join } from "node:path";
@@ -10,14 +10,15 @@ import { setUp } from "./setup.mjs";
 const target = "wasm32-unknown-unknown";
 const generated = "js/generated";
 
-/** Each module: its name, the feature that makes it, and the name of its bytes. */
-const modules = [
-  { name: "whither", feature: "wasm", bytes: "bytes" },
-  { name: "study", feature: "wasm-fit", bytes: "study-bytes" },
+/** Each module: its name, the features that make it, and the name of its bytes. */
+export const modules = [
+  { name: "whither", features: ["papers", "wasm"], bytes: "bytes" },
+  { name: "pointing", features: ["wasm"], bytes: "pointing-bytes" },
+  { name: "study", features: ["wasm-fit"], bytes: "study-bytes" },
 ];
 
 /** What the engine must have, as wasm-opt names it: what rustc emits by default, and SIMD. */
-const features = [
+const instructions = [
   "simd",
   "bulk-memory",
   "bulk-memory-opt",
@@ -31,10 +32,10 @@ const features = [
 
 export async function buildWasm() {
   const compiled = modules.map(({ name }) => `target/wasm/${name}.wasm`);
-  // Cargo by itself would compile both whenever it is asked, since they come to the same place.
+  // Cargo by itself would compile all whenever it is asked, since they come to the same place.
   const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
   await incremental("wasm-modules", { inputs: sources, outputs: compiled }, async () => {
-    for (const [i, { feature }] of modules.entries()) await compile(feature, compiled[i]);
+    for (const [i, { features }] of modules.entries()) await compile(features, compiled[i]);
   });
   const inputs = [...compiled, "Cargo.lock", "xtask", "package-lock.json", "scripts/build-wasm.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
@@ -51,7 +52,7 @@ export async function buildWasm() {
 }
 
 /** These flags replace those of .cargo/config.toml. */
-async function compile(feature, file) {
+async function compile(features, file) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
@@ -62,7 +63,8 @@ async function compile(feature, file) {
     `--remap-path-prefix=${sysroot}=rust`,
     `--remap-path-prefix=${root}=`,
   ];
-  const args = ["build", "--lib", "--features", feature, "--target", target, "--profile", "wasm", "--target-dir", "target"];
+  const parts = ["--no-default-features", "--features", features.join()];
+  const args = ["build", "--lib", ...parts, "--target", target, "--profile", "wasm", "--target-dir", "target"];
   await run("cargo", args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
   mkdirSync(join(root, file, ".."), { recursive: true });
   copyFileSync(join(root, `target/${target}/wasm/whither.wasm`), join(root, file));
@@ -81,7 +83,7 @@ function bindgen(snipped, name) {
 async function optimise(name) {
   const file = `${generated}/${name}_bg.wasm`;
   const tool = "node_modules/binaryen/bin/wasm-opt";
-  const enabled = features.map((feature) => `--enable-${feature}`);
+  const enabled = instructions.map((set) => `--enable-${set}`);
   // Large functions with a single caller stay functions: inside others they compress worse, by 6%. And functions of like
   // names stand together, which brings 1%; until here they have names.
   const size = ["-Oz", "--one-caller-inline-max-function-size=10", "--reorder-functions-by-name"];

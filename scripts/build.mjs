@@ -1,85 +1,82 @@
 // `npm run build`: dist/, which is what the package ships.
 import { copyFileSync, readdirSync, rmSync } from "node:fs";
-import { join } from "node:path";
-import { buildWasm } from "./build-wasm.mjs";
+import { basename, join } from "node:path";
+import { buildWasm, modules } from "./build-wasm.mjs";
 import { incremental } from "./incremental.mjs";
 import { Failure, main, root, run } from "./run.mjs";
 import { setUp } from "./setup.mjs";
 
 const dist = join(root, "dist");
-const entries = ["index", "slim", "workerd"];
+
+/** What is bundled together, and the WebAssembly that it loads. */
+const bundles = [
+  { entries: ["index", "slim", "workerd"], file: "whither.wasm" },
+  { entries: ["pointing"], file: "pointing.wasm" },
+  { entries: ["study"] },
+];
+
+/** Modules of their own, of which each entry takes what it needs: large ones, and the class of errors, the same for all. */
+const apart = ["error", ...modules.map(({ bytes }) => `generated/${bytes}`)];
 
 export async function build() {
   await setUp();
   await buildWasm();
   const inputs = ["js", "tsconfig.json", "package.json", "package-lock.json", "scripts/build.mjs"];
-  const outputs = ["dist/index.js", "dist/types/index.d.ts", "dist/whither.wasm"];
+  const outputs = ["dist/index.js", "dist/types/index.d.ts", "dist/whither.wasm", "dist/pointing.wasm"];
   await incremental("dist", { inputs, outputs }, async () => {
     await run("node", ["node_modules/typescript/bin/tsc", "--project", "tsconfig.json"]);
     rmSync(dist, { recursive: true, force: true });
     await bundle();
     await declare();
-    copyFileSync(join(root, "js/generated/whither_bg.wasm"), join(dist, "whither.wasm"));
+    for (const name of ["whither", "pointing"]) {
+      copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
+    }
   });
 }
 
-/**
- * One file for each entry, one that they share (so that the loaded engine and the class of errors are the same whichever
- * entry is imported), and the bytes.
- */
+/** One file for each entry, one that those of `whither` share (so that the loaded engine is the same), and those apart. */
 async function bundle() {
   const esbuild = await import("esbuild");
-  await esbuild.build({
-    absWorkingDir: root,
-    entryPoints: entries.map((name) => `js/${name}.ts`),
-    outdir: "dist",
-    bundle: true,
-    format: "esm",
-    target: "es2022",
-    splitting: true,
-    chunkNames: "shared",
-    minifySyntax: true,
-    minifyWhitespace: true,
-    legalComments: "none",
-    plugins: [{ name: "own files", setup: keepApart }],
-  });
-  // What learns stands apart, but throws the same class of errors: it takes that from an entry without bytes.
-  await esbuild.build({
-    absWorkingDir: root,
-    entryPoints: ["js/study.ts"],
-    outdir: "dist",
-    bundle: true,
-    format: "esm",
-    target: "es2022",
-    minifySyntax: true,
-    minifyWhitespace: true,
-    legalComments: "none",
-    plugins: [{ name: "own files", setup: keepApart }, { name: "one class of errors", setup: shareErrors }],
-  });
-  for (const name of ["bytes", "study-bytes"]) {
-    await esbuild.build({ absWorkingDir: root, entryPoints: [`js/generated/${name}.js`], outfile: `dist/${name}.js` });
+  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", target: "es2022", format: "esm" };
+  for (const { entries, file = "" } of bundles) {
+    await esbuild.build({
+      ...small,
+      absWorkingDir: root,
+      entryPoints: entries.map((name) => `js/${name}.ts`),
+      outdir: "dist",
+      bundle: true,
+      splitting: entries.length > 1,
+      chunkNames: "shared",
+      define: { WASM_FILE: JSON.stringify(file) },
+      plugins: [{ name: "own files", setup: (plugin) => keepApart(plugin, file.replace(".wasm", "")) }],
+    });
+  }
+  for (const name of apart) {
+    const source = name.startsWith("generated/") ? `js/${name}.js` : `js/${name}.ts`;
+    await esbuild.build({ ...small, absWorkingDir: root, entryPoints: [source], outdir: "dist" });
   }
   const found = readdirSync(dist).sort().join(" ");
-  const expected = [...entries, "shared", "bytes", "study", "study-bytes"].map((name) => `${name}.js`).sort().join(" ");
+  const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];
+  const expected = names.map((name) => `${name}.js`).sort().join(" ");
   if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
 }
 
-function keepApart({ onResolve }) {
-  for (const name of ["bytes", "study-bytes"]) {
-    onResolve({ filter: new RegExp(`/generated/${name}\\.js$`) }, () => ({ path: `./${name}.js`, external: true }));
+/** Leaves out what stands apart; an entry with another WebAssembly than `whither.wasm` takes the code and the bytes of its own. */
+function keepApart({ onResolve }, module) {
+  const own = modules.find(({ name }) => name === module);
+  for (const name of apart) {
+    const of = name === "generated/bytes" && own ? `generated/${own.bytes}` : name;
+    onResolve({ filter: new RegExp(`/${name}\\.(js|ts)$`) }, () => ({ path: `./${basename(of)}.js`, external: true }));
   }
+  onResolve({ filter: /\/generated\/whither\.js$/ }, () => ({ path: join(root, `js/generated/${own.name}.js`) }));
   onResolve({ filter: /^\.\/whither\.wasm$/ }, () => ({ path: "./whither.wasm", external: true }));
-}
-
-function shareErrors({ onResolve }) {
-  onResolve({ filter: /(^|\/)error\.(js|ts)$/ }, () => ({ path: "./slim.js", external: true }));
 }
 
 /** The declarations, without what is not exported. */
 async function declare() {
   const { rollup } = await import("rollup");
   const { dts } = await import("rollup-plugin-dts");
-  const input = { index: "js/index.ts", slim: "js/slim.ts", study: "js/study.ts" };
+  const input = Object.fromEntries(["index", "slim", "pointing", "study"].map((name) => [name, `js/${name}.ts`]));
   const bundle = await rollup({ input, plugins: [dts({ tsconfig: join(root, "tsconfig.json") })] });
   await bundle.write({
     dir: join(dist, "types"),

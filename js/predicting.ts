@@ -1,0 +1,20 @@
+/**
+ * What every entry that predicts exports besides its own `init`.
+ *
+ * @module
+ */
+export { WhitherError, type ErrorCode } from "./error.js";
+export type { Gaussian } from "./gaussian.js";
+export { initSync } from "./glue.js";
+export { pointerScenario } from "./pointer.js";
+export {
+  Predictor,
+  type ArrivalTime,
+  type Best,
+  type ObserveOptions,
+  type Position,
+  type Remaining,
+  type Snapshot,
+} from "./predictor.js";
+export type * from "./scenario.js";
+export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "./source.js";
