@@ -26,7 +26,7 @@ use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
-use crate::value::{Fields, Node, Value};
+use crate::value::{Fields, Node, Value, say};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -133,7 +133,7 @@ impl Scenario {
     fn check(&self) -> Result<()> {
         if !(0.0..1.0).contains(&self.none) {
             let none = Value::Number(self.none);
-            let message = format!("must be at least 0 and less than 1, got {}", none.quoted());
+            let message = say!("must be at least 0 and less than 1, got ", none.quoted());
             return Err(Error::new(Code::OutOfRange, "none", message));
         }
         let Engine::Papers { method, arrival, .. } = &self.engine else { return Ok(()) };
@@ -165,7 +165,7 @@ impl Scenario {
         let own = |i: &usize| destinations.kind(*i).arrival.as_ref().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
-                .refuse_accumulating(&format!("destinations[{i}].arrival"), "a horizon moves with every observation"),
+                .refuse_accumulating(&say!("destinations[", i, "].arrival"), "a horizon moves with every observation"),
             None => Ok(()),
         }
     }
@@ -189,11 +189,19 @@ impl Scenario {
         if needed <= MOST_NUMBERS {
             return Ok(());
         }
-        let message = format!(
-            "{count} destinations with {nodes} arrival times together, under {} noise candidates, need {needed} numbers \
-             with \"{}\", the most is {MOST_NUMBERS}",
+        let message = say!(
+            count,
+            " destinations with ",
+            nodes,
+            " arrival times together, under ",
             self.motion.candidates.len(),
-            method.name()
+            " noise candidates, need ",
+            needed,
+            " numbers \
+             with \"",
+            method.name(),
+            "\", the most is ",
+            MOST_NUMBERS
         );
         Err(Error::new(Code::TooLarge, "destinations", message))
     }
@@ -209,10 +217,13 @@ impl Scenario {
         if !self.motion.candidates.iter().any(|c| Endpoint::after(c.model.as_ref(), 1.0, length).is_singular()) {
             return Ok(());
         }
-        let message = format!(
-            "must reach each of the endpoint's {length} components: with \"{}\" the endpoint does not depend on the start, \
-             so noise must lead to it; \"pseudoObservation\", \"algorithm1\" and \"algorithm2\" can do without",
-            method.name()
+        let message = say!(
+            "must reach each of the endpoint's ",
+            length,
+            " components: with \"",
+            method.name(),
+            "\" the endpoint does not depend on the start, \
+             so noise must lead to it; \"pseudoObservation\", \"algorithm1\" and \"algorithm2\" can do without"
         );
         Err(Error::new(Code::NotPositiveDefinite, "motion.diffusion", message))
     }
@@ -226,10 +237,12 @@ impl Scenario {
         if !method.accumulates() {
             return Ok(());
         }
-        let message = format!(
-            "{why}, but \"{}\" accumulates evidence for each destination and arrival time; \"pseudoObservation\", \
-             \"singleFilter\" and \"singleFilterApproximate\" do not",
-            method.name()
+        let message = say!(
+            why,
+            ", but \"",
+            method.name(),
+            "\" accumulates evidence for each destination and arrival time; \"pseudoObservation\", \
+             \"singleFilter\" and \"singleFilterApproximate\" do not"
         );
         Err(Error::new(Code::MethodAccumulates, path, message))
     }
@@ -329,7 +342,7 @@ fn check_for_pointing(destinations: &Destinations) -> Result<()> {
             if found {
                 let message =
                     "the method \"pointing\" knows positions alone as endpoints, and arrival nodes of its own";
-                return Err(Error::new(Code::UnknownKey, format!("destinations[{i}].{key}"), message));
+                return Err(Error::new(Code::UnknownKey, say!("destinations[", i, "].", key), message));
             }
         }
     }

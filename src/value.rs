@@ -5,14 +5,15 @@
 //! WebAssembly several times as large and its errors poorer.
 
 use crate::error::{Code, Error, Result};
-use std::fmt::Write;
 
 mod fields;
 mod quote;
+mod say;
 mod serial;
 
 pub use fields::Fields;
 pub use quote::{number, quote};
+pub(crate) use say::{Part, say};
 
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
 /// the smallest deviation: what is computed from such numbers stays finite.
@@ -109,13 +110,14 @@ impl Value {
     pub fn quoted(&self) -> String {
         match self {
             Self::Null => "nothing".to_owned(),
-            Self::Bool(b) => b.to_string(),
+            Self::Bool(b) => (if *b { "true" } else { "false" }).to_owned(),
             Self::Number(x) => number(*x),
             Self::Text(s) => quote(s),
             Self::List(v) => {
                 let mut text = String::from("[");
                 for (i, item) in v.iter().take(4).enumerate() {
-                    let _ = write!(text, "{}{}", if i == 0 { "" } else { ", " }, item.quoted());
+                    text += if i == 0 { "" } else { ", " };
+                    text += &item.quoted();
                 }
                 text.push_str(if v.len() > 4 { ", ...]" } else { "]" });
                 text
@@ -174,7 +176,7 @@ impl<'a> Node<'a> {
                 path.push_str(key);
             }
             Step::Index(i) => {
-                let _ = write!(path, "[{i}]");
+                path += &say!("[", i, "]");
             }
         }
         path
@@ -183,7 +185,7 @@ impl<'a> Node<'a> {
     /// An error about this value: `"must be positive"` becomes `"must be positive, got -3"`.
     #[must_use]
     pub fn error(&self, code: Code, must: &str) -> Error {
-        Error::new(code, self.path(), format!("{must}, got {}", self.value.quoted()))
+        Error::new(code, self.path(), say!(must, ", got ", self.value.quoted()))
     }
 
     /// This value as an object that may have the `legal` keys only.
@@ -198,11 +200,11 @@ impl<'a> Node<'a> {
             let path = || Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
             if !legal.contains(&key.as_str()) {
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
-                let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
+                let message = say!("unknown key ", quote(key), ", expected one of ", legal.join(", "));
                 return Err(Error::new(Code::UnknownKey, path(), message));
             }
             if entries[..i].iter().any(|(before, _)| before == key) {
-                return Err(Error::new(Code::UnknownKey, path(), format!("the key {} is there twice", quote(key))));
+                return Err(Error::new(Code::UnknownKey, path(), say!("the key ", quote(key), " is there twice")));
             }
         }
         Ok(Fields { entries, node: self })
@@ -267,7 +269,7 @@ impl<'a> Node<'a> {
     /// As [`Node::number`], `out-of-range`, `too-large`.
     pub fn whole(&self, low: usize, high: usize) -> Result<usize> {
         let x = self.number()?;
-        let must = || format!("must be a whole number from {low} to {high}");
+        let must = || say!("must be a whole number from ", low, " to ", high);
         if x.fract() != 0.0 || x < low as f64 {
             return Err(self.error(Code::OutOfRange, &must()));
         }
@@ -302,7 +304,7 @@ impl<'a> Node<'a> {
     pub fn exact_numbers(&self, length: usize) -> Result<Vec<f64>> {
         let items = self.items()?;
         if items.len() != length {
-            let must = format!("must have {length} numbers, has {}", items.len());
+            let must = say!("must have ", length, " numbers, has ", items.len());
             return Err(self.error(Code::WrongLength, &must));
         }
         self.numbers(|item| item.exact())
@@ -327,7 +329,7 @@ impl<'a> Node<'a> {
         let text = self.text()?;
         words.iter().find(|(word, _)| *word == text).map(|(_, item)| *item).ok_or_else(|| {
             let legal: Vec<String> = words.iter().map(|(word, _)| quote(word)).collect();
-            self.error(Code::OutOfRange, &format!("must be one of {}", legal.join(", ")))
+            self.error(Code::OutOfRange, &say!("must be one of ", legal.join(", ")))
         })
     }
 
@@ -355,7 +357,7 @@ impl<'a> Node<'a> {
         match length {
             Some(n) if items.len() != n => {
                 let found = items.len();
-                Err(self.error(Code::WrongLength, &format!("must have {n} numbers, has {found}")))
+                Err(self.error(Code::WrongLength, &say!("must have ", n, " numbers, has ", found)))
             }
             _ => self.numbers(|item| item.number()),
         }
@@ -384,7 +386,7 @@ impl<'a> Node<'a> {
             self.numbers(check)
         } else {
             if !matches!(self.value, Value::Number(_)) {
-                let must = format!("must be a number or a list of {axes} numbers, one for each axis");
+                let must = say!("must be a number or a list of ", axes, " numbers, one for each axis");
                 return Err(self.error(Code::WrongType, &must));
             }
             check(self).map(|x| vec![x; axes])
@@ -398,7 +400,7 @@ impl<'a> Node<'a> {
     pub fn matrix(&self, rows: usize, columns: usize) -> Result<Vec<f64>> {
         let items = self.items()?;
         if items.len() != rows {
-            let must = format!("must have {rows} rows of {columns} numbers, has {} rows", items.len());
+            let must = say!("must have ", rows, " rows of ", columns, " numbers, has ", items.len(), " rows");
             return Err(self.error(Code::WrongLength, &must));
         }
         let mut matrix = Vec::with_capacity(rows * columns);

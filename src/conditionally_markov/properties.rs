@@ -12,12 +12,13 @@ use super::model::{Model, StepModel};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Factor;
 use crate::math::product::product;
+use crate::value::say;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether every equation of Theorem 3.2 holds, with or without `k = 0`, to `tolerance` of the larger side.
 pub(super) fn holds(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
     if !(tolerance.is_finite() && tolerance >= 0.0) {
-        let message = format!("must be at least 0, got {}", crate::value::number(tolerance));
+        let message = say!("must be at least 0, got ", crate::value::number(tolerance));
         return Err(Error::new(Code::OutOfRange, "tolerance", message));
     }
     Ok(between_pins(model, tolerance)? && of_pins(model, and_markov, tolerance)?)
@@ -79,7 +80,7 @@ fn of_pins(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
 fn towards(step: &StepModel, k: usize) -> Result<DMatrix<f64>> {
     let factor = Factor::new(step.covariance.clone()).ok_or_else(|| {
         let message = "must be positive definite for the sequence to be nonsingular";
-        Error::new(Code::NotPositiveDefinite, format!("covariance[{}]", k - 1), message)
+        Error::new(Code::NotPositiveDefinite, say!("covariance[", k - 1, "]"), message)
     })?;
     Ok(factor.solve(&step.destination))
 }

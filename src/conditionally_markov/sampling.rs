@@ -4,6 +4,7 @@ use super::model::Model;
 use crate::error::{Code, Error, Result};
 use crate::math::product::apply;
 use crate::math::random::Random;
+use crate::value::say;
 use nalgebra::{DMatrix, DVector};
 
 /// The most numbers that are drawn at once (80 MB).
@@ -16,7 +17,7 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
     let (s, length) = (model.states, (model.steps() + 1) * model.states);
     let most = MAX_NUMBERS / length;
     if count > most {
-        let message = format!("must be a whole number from 0 to {most} for sequences of this length, got {count}");
+        let message = say!("must be a whole number from 0 to ", most, " for sequences of this length, got ", count);
         return Err(Error::new(Code::TooLarge, "count", message));
     }
     let mut random = Random::new(seed);

@@ -4,7 +4,7 @@ use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
 use crate::math::order::{Numbering, order};
-use crate::value::{Node, Value, number, quote};
+use crate::value::{Node, Value, number, quote, say};
 use nalgebra::{DMatrix, DVector};
 
 mod edit;
@@ -92,7 +92,7 @@ impl Destination {
             let field = fields.required("mean")?;
             let mean = field.vector(None)?;
             if mean.len() < dimensions || mean.len() > states {
-                let must = format!("must have {dimensions} to {states} numbers, has {}", mean.len());
+                let must = say!("must have ", dimensions, " to ", states, " numbers, has ", mean.len());
                 return Err(field.error(Code::WrongLength, &must));
             }
             let covariance = read_covariance(&fields.required("covariance")?, mean.len())?;
@@ -200,7 +200,7 @@ impl Destinations {
             return Err(Error::new(Code::NoDestinations, node.path(), "must have at least one destination, has none"));
         }
         if count > MOST_DESTINATIONS {
-            let message = format!("must have at most {MOST_DESTINATIONS} destinations, has {count}");
+            let message = say!("must have at most ", MOST_DESTINATIONS, " destinations, has ", count);
             return Err(Error::new(Code::TooLarge, node.path(), message));
         }
         let mut all = Self {
@@ -227,7 +227,7 @@ impl Destinations {
         for pair in by_id.windows(2) {
             let (first, second) = (pair[0] as usize, pair[1] as usize);
             if all.ids.get(first) == all.ids.get(second) {
-                let path = format!("{}[{second}].id", node.path());
+                let path = say!(node.path(), "[", second, "].id");
                 return Err(duplicate(path, all.ids.get(first), first));
             }
         }
@@ -264,7 +264,7 @@ impl Destinations {
         Err(Error::new(
             Code::OutOfRange,
             path,
-            format!("the priors must have a finite sum above 0, it is {}", number(total)),
+            say!("the priors must have a finite sum above 0, it is ", number(total)),
         ))
     }
 
@@ -311,7 +311,7 @@ impl Destinations {
         self.find(id).ok_or_else(|| {
             let shown: Vec<String> = self.ids.iter().take(5).map(quote).collect();
             let more = if self.len() > 5 { ", ..." } else { "" };
-            let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
+            let message = say!("no destination ", quote(id), ", there are ", shown.join(", "), more);
             Error::new(Code::UnknownId, "id", message)
         })
     }
@@ -383,7 +383,7 @@ impl Destinations {
 }
 
 fn duplicate(path: String, id: &str, first: usize) -> Error {
-    Error::new(Code::DuplicateId, path, format!("the id {} is taken by destinations[{first}]", quote(id)))
+    Error::new(Code::DuplicateId, path, say!("the id ", quote(id), " is taken by destinations[", first, "]"))
 }
 
 /// Equal kinds have equal fingerprints, and only they: all their numbers, bit by bit.

@@ -5,7 +5,7 @@ use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Gaussian, condition};
 use crate::math::kalman::Measurement;
 use crate::math::product::apply;
-use crate::value::{Node, Value};
+use crate::value::{Node, Value, say};
 use nalgebra::{DMatrix, DVector};
 
 /// What is known of `x_1` before `y_1`.
@@ -61,7 +61,7 @@ impl Initial {
         for (order, key) in [(1, "velocity"), (2, "acceleration")] {
             let Some(field) = fields.optional(key) else { continue };
             if states < (order + 1) * dimensions {
-                return Err(field.error(Code::OutOfRange, &format!("the motion model has no {key}")));
+                return Err(field.error(Code::OutOfRange, &say!("the motion model has no ", key)));
             }
             let values = field.for_each_axis(dimensions, |n| n.positive())?;
             deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
@@ -116,7 +116,7 @@ impl Initial {
                     return Err(Error::new(
                         Code::MissingKey,
                         "position",
-                        format!("the first observation must have all {axes} axes: initial is flat in position"),
+                        say!("the first observation must have all ", axes, " axes: initial is flat in position"),
                     ));
                 }
                 let mut mean = DVector::zeros(states);

@@ -2,7 +2,7 @@
 
 use crate::error::{Code, Error, Result};
 use crate::scenario::Scenario;
-use crate::value::{Node, Value};
+use crate::value::{Node, Value, number, say};
 use serde::{Deserialize, Deserializer};
 
 /// One recorded movement towards one of several targets.
@@ -96,7 +96,7 @@ impl Track {
         let target = fields.required("target")?;
         let chosen = target.number()?;
         if chosen < 0.0 || chosen.fract() != 0.0 || chosen >= targets.len() as f64 {
-            let must = format!("must be the place of one of the {} targets, counted from 0", targets.len());
+            let must = say!("must be the place of one of the ", targets.len(), " targets, counted from 0");
             return Err(target.error(Code::OutOfRange, &must));
         }
         Ok(Self { id: text("id")?, user: text("user")?, targets, target: chosen as usize, samples })
@@ -161,7 +161,7 @@ fn check_sample(sample: &Sample, last: Option<&Sample>, item: &Node<'_>) -> Resu
         return Err(item.error(Code::WrongLength, "must have as many numbers as the sample before"));
     }
     if sample.time < last.time {
-        let must = format!("must not be before the sample at {}", last.time);
+        let must = say!("must not be before the sample at ", number(last.time));
         return Err(item.error(Code::TimeNotIncreasing, &must));
     }
     Ok(())

@@ -5,7 +5,7 @@
 pub fn quote(text: &str) -> String {
     let cut: String = text.chars().take(40).collect();
     let more = if cut.len() < text.len() { "..." } else { "" };
-    format!("\"{cut}{more}\"")
+    super::say!("\"", cut, more, "\"")
 }
 
 /// A number as JavaScript prints it.

@@ -6,7 +6,7 @@ use crate::error::{Code, Error, Result};
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
-use crate::value::{Node, Value};
+use crate::value::{Node, Value, say};
 use nalgebra::DMatrix;
 
 /// The most noise scales and time-to-go nodes: both are summed over for every destination.
@@ -260,7 +260,7 @@ pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<[f64; 3]> {
 fn read_scales(node: &Node<'_>) -> Result<Vec<f64>> {
     let scales = node.numbers(|item| item.positive())?;
     if scales.is_empty() || scales.len() > MOST_SCALES {
-        let message = format!("must have 1 to {MOST_SCALES} numbers, has {}", scales.len());
+        let message = say!("must have 1 to ", MOST_SCALES, " numbers, has ", scales.len());
         return Err(Error::new(Code::WrongLength, node.path(), message));
     }
     Ok(scales)

@@ -16,7 +16,7 @@ use super::{AxisTransition, Kind, MotionModel, Transition};
 use crate::error::{Code, Result};
 use crate::math::product::{apply, product};
 use crate::math::van_loan::VanLoan;
-use crate::value::{Fields, Node, Value};
+use crate::value::{Fields, Node, Value, say};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -64,11 +64,11 @@ impl Custom {
         let node = fields.required("drift")?;
         let states = node.items()?.len();
         if states < dimensions {
-            let must = format!("must have a row for each of the {dimensions} positions at least, has {states}");
+            let must = say!("must have a row for each of the ", dimensions, " positions at least, has ", states);
             return Err(node.error(Code::WrongLength, &must));
         }
         if states > MAX_STATES {
-            return Err(node.error(Code::TooLarge, &format!("must have at most {MAX_STATES} rows, has {states}")));
+            return Err(node.error(Code::TooLarge, &say!("must have at most ", MAX_STATES, " rows, has ", states)));
         }
         let drift = DMatrix::from_row_slice(states, states, &node.matrix(states, states)?);
         let diffusion = diffusion(&fields.required("diffusion")?, states)?;

@@ -21,7 +21,7 @@
 //! | `custom` | [`custom`] | any | any |
 
 use crate::error::{Code, Error, Result};
-use crate::value::{Fields, Node, Value};
+use crate::value::{Fields, Node, Value, say};
 use nalgebra::{DMatrix, DVector};
 use std::fmt;
 use std::sync::Arc;
@@ -362,7 +362,7 @@ impl NoiseCandidates {
             return Err(candidates.error(Code::WrongLength, "must have at least one candidate"));
         }
         if count > MAX_CANDIDATES {
-            let must = format!("must have at most {MAX_CANDIDATES} candidates, has {count}");
+            let must = say!("must have at most ", MAX_CANDIDATES, " candidates, has ", count);
             return Err(candidates.error(Code::TooLarge, &must));
         }
         let noises =
