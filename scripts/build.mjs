@@ -1,5 +1,5 @@
 // `npm run build`: dist/, which is what the package ships.
-import { copyFileSync, readdirSync, rmSync } from "node:fs";
+import { copyFileSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { basename, join } from "node:path";
 import { buildWasm, modules } from "./build-wasm.mjs";
 import { incremental } from "./incremental.mjs";
@@ -48,7 +48,10 @@ async function bundle() {
       splitting: entries.length > 1,
       chunkNames: "shared",
       define: { WASM_FILE: JSON.stringify(file) },
-      plugins: [{ name: "own files", setup: (plugin) => keepApart(plugin, file.replace(".wasm", "")) }],
+      plugins: [
+        { name: "own files", setup: (plugin) => keepApart(plugin, file.replace(".wasm", "")) },
+        { name: "short names", setup: ({ onLoad }) => onLoad({ filter: /\/generated\/\w+\.js$/ }, shorten) },
+      ],
     });
   }
   for (const name of apart) {
@@ -59,6 +62,13 @@ async function bundle() {
   const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];
   const expected = names.map((name) => `${name}.js`).sort().join(" ");
   if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
+}
+
+/** The generated code under short names, which nobody sees; classes and functions that users see keep theirs. */
+async function shorten({ path }) {
+  const { transform } = await import("esbuild");
+  const { code } = await transform(readFileSync(path, "utf8"), { minify: true, target: "es2022" });
+  return { contents: code };
 }
 
 /** Leaves out what stands apart; an entry with another WebAssembly than `whither.wasm` takes the code and the bytes of its own. */

@@ -31,6 +31,8 @@ pub struct References {
     by_data: Vec<(usize, usize, u32)>,
     /// By their numbers in the file.
     functions: Vec<FunctionId>,
+    /// What tells where in the sources a panic would be: read by panics alone, even where the code still names it.
+    places: HashSet<u32>,
 }
 
 impl References {
@@ -93,7 +95,28 @@ impl References {
             by_data.push((segment, position - segments[segment].start, entry.index));
         }
         let functions = module.funcs.iter().map(walrus::Function::id).collect();
-        Ok(Self { symbols, by_instruction, by_data, functions })
+        let mut references = Self { symbols, by_instruction, by_data, functions, places: HashSet::new() };
+        references.places = references.find_places(module);
+        Ok(references)
+    }
+
+    /// The `core::panic::Location`s: the address of a file's name, its length, a line and a column.
+    fn find_places(&self, module: &Module) -> HashSet<u32> {
+        let contents: Vec<&[u8]> = module.data.iter().map(|data| data.value.as_slice()).collect();
+        let named = |index: u32| match &self.symbols[index as usize] {
+            Symbol::Data { segment, range } => {
+                let name = contents[*segment][range.clone()].as_ref();
+                Some(name.strip_suffix(b"\0").unwrap_or(name))
+            }
+            _ => None,
+        };
+        let is_place = |symbol: &Symbol| {
+            let Symbol::Data { segment, range } = symbol else { return false };
+            let first = self.by_data.iter().find(|(s, at, _)| s == segment && *at == range.start);
+            let name = first.and_then(|(_, _, index)| named(*index));
+            range.len() == 16 && name.is_some_and(|name| name.ends_with(b".rs"))
+        };
+        (0..).zip(&self.symbols).filter(|(_, symbol)| is_place(symbol)).map(|(index, _)| index).collect()
     }
 
     /// Takes out of `module` what is not in use. In the table `trap` stands for every function that is not.
@@ -177,6 +200,9 @@ impl Used {
         let mut named = references.by_instruction.get(&place.data()).cloned().unwrap_or_default();
         while let Some(index) = named.pop() {
             if !self.symbols.insert(index) {
+                continue;
+            }
+            if references.places.contains(&index) {
                 continue;
             }
             match &references.symbols[index as usize] {
