@@ -29,5 +29,5 @@ export interface InitOptions {
  * ```
  */
 export function init(options?: InitOptions): Promise<void> {
-  return load(() => options?.wasm ?? unpack(base64, `use init({ wasm }), as with "whither/slim"`));
+  return load(() => options?.wasm ?? unpack(base64, `use init({ wasm }) with whither/${WASM_FILE}`));
 }

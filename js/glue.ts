@@ -54,8 +54,7 @@ export function initSync(options: { module: CompiledModule | ArrayBuffer | Array
 
 /** The generated code would keep whatever it is given, so another module must not reach it. */
 function ours(module: WebAssembly.Module): WebAssembly.Module {
-  const last = WASM_FILE === "whither.wasm" ? "sequenceengine_new" : "engine_new";
-  const missing = ["__wbindgen_start", last].find(
+  const missing = ["__wbindgen_start", "engine_new"].find(
     (name) => !WebAssembly.Module.exports(module).some((item) => item.name === name),
   );
   if (missing !== undefined) throw unfit(new Error(`it has no ${missing}`));

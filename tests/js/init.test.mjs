@@ -108,7 +108,7 @@ test("without DecompressionStream", async () => {
   const { DecompressionStream: present } = globalThis;
   globalThis.DecompressionStream = undefined;
   try {
-    const message = 'DecompressionStream does not exist here: use "whither/slim" with init({ wasm })';
+    const message = 'DecompressionStream does not exist here: use init({ wasm }) with whither/whither.wasm';
     await fails(init(), "wasm-unavailable", message);
   } finally {
     globalThis.DecompressionStream = present;

@@ -28,7 +28,7 @@ const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_obse
 /// Who may name the generated code and its one importer.
 const JAVASCRIPT: [(&str, &[&str]); 2] = [
     ("./generated/", &["glue", "embedded", "study"]),
-    ("./glue.js", &["index", "slim", "workerd", "exports", "predictor", "sequence", "pointer"]),
+    ("./glue.js", &["embedded", "slim", "workerd", "predicting", "predictor", "sequence", "pointer"]),
 ];
 
 const LONGEST: usize = 450;

@@ -1,6 +1,7 @@
 // Pages of users who know nothing of WebAssembly: each bundler as it comes, the result opened in the browser.
 import { test } from "node:test";
-import { join } from "node:path";
+import assert from "node:assert/strict";
+import { basename, join } from "node:path";
 import { promisify } from "node:util";
 import * as esbuild from "esbuild";
 import { nodeResolve } from "@rollup/plugin-node-resolve";
@@ -51,6 +52,14 @@ test("bundled without configuration", async (t) => {
       assertPredicted(await inBrowser(browser, join(folder, "site")));
     });
   }
+
+  await t.test("whither/pointing alone brings its own WebAssembly and no other", async () => {
+    write(folder, "pointer.js", 'import { init, Predictor } from "whither/pointing"; window.outcome = init().then(() => Predictor);');
+    const options = { bundle: true, minify: true, format: "esm", outdir: "site", metafile: true };
+    const { metafile } = await esbuild.build({ absWorkingDir: folder, entryPoints: ["pointer.js"], ...options });
+    const files = Object.keys(metafile.inputs).filter((name) => name.includes("whither/dist/")).map((name) => basename(name));
+    assert.deepEqual(files.sort(), ["error.js", "pointing-bytes.js", "pointing.js"]);
+  });
 
   await t.test("by Vite's development server", async () => {
     const server = await vite.createServer({ root: folder, configFile: false, logLevel: "warn", server: { port: 0 } });

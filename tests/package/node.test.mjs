@@ -39,12 +39,25 @@ test("in Node", async (t) => {
     assertPredicted(await inNode(folder, "require.cjs", text));
   });
 
+  for (const [kind, load] of Object.entries({ import: "await import", require: "createRequire(import.meta.url)" })) {
+    await t.test(`whither/pointing by ${kind} predicts, with its bytes and with its file`, async () => {
+      const text = `import { createRequire } from "node:module"; import { readFileSync } from "node:fs";
+        const { init, initSync, pointerScenario, Predictor } = ${load}("whither/pointing");
+        if (${kind === "import"}) await init(); else initSync({ module: readFileSync(createRequire(import.meta.url).resolve("whither/pointing.wasm")) });
+        const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
+        const predictor = new Predictor(pointerScenario(icons));
+        for (let k = 0; k < 12; k++) predictor.observe(k / 60, [480 + k * k, 600 - 20 * k]);
+        console.log(JSON.stringify(predictor.best.id));`;
+      assert.equal(await inNode(folder, `pointing-${kind}.mjs`, text), "900");
+    });
+  }
+
   await t.test("an import does nothing: no request, no compilation, no unpacking", async () => {
     const text = `const touched = [];
       const watch = (object, name) => Object.defineProperty(object, name, { get: () => void touched.push(name) });
       for (const name of ["fetch", "DecompressionStream", "atob", "Response"]) watch(globalThis, name);
       for (const name of ["compile", "instantiate", "Module", "Instance"]) watch(WebAssembly, name);
-      await import("whither"); await import("whither/slim");
+      await import("whither"); await import("whither/slim"); await import("whither/pointing");
       console.log(JSON.stringify(touched));`;
     assert.deepEqual(await inNode(folder, "quiet.mjs", text), []);
   });

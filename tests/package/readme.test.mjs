@@ -28,32 +28,34 @@ test("the README's code", async (t) => {
     });
   }
 
-  await t.test("on a page marks the icon that the mouse is going to, before it is there", async () => {
-    const icon = (id, left) => `<i data-icon id="${id}" style="position:fixed;top:300px;left:${left}px;width:96px;height:96px"></i>`;
-    const icons = [0, 1, 2, 3].map((i) => icon(`icon${i}`, 100 + 300 * i)).join("");
-    write(folder, "site/index.html", `<!doctype html><link rel="icon" href="data:,">${icons}<script type="module" src="main.js"></script>`);
-    write(folder, "main.js", onAPage);
-    const bundle = { bundle: true, format: "esm", target: "es2022", outdir: "site", logLevel: "warning" };
-    await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...bundle });
-    const server = await serve(join(folder, "site"));
-    const browser = await launch();
-    try {
-      const tab = await browser.newPage();
-      const errors = [];
-      tab.on("pageerror", (error) => errors.push(String(error)));
-      await tab.goto(server.url, { waitUntil: "networkidle" });
-      // a minimum-jerk movement from between the first two icons to the last; 70% of the way
-      for (let k = 0; k <= 28; k++) {
-        const u = k / 40;
-        const way = 10 * u ** 3 - 15 * u ** 4 + 6 * u ** 5;
-        await tab.mouse.move(300 + 748 * way, 600 - 252 * way);
-        await tab.waitForTimeout(12);
+  for (const entry of ["whither", "whither/pointing"]) {
+    await t.test(`on a page, from ${entry}, marks the icon that the mouse is going to, before it is there`, async () => {
+      const icon = (id, left) => `<i data-icon id="${id}" style="position:fixed;top:300px;left:${left}px;width:96px;height:96px"></i>`;
+      const icons = [0, 1, 2, 3].map((i) => icon(`icon${i}`, 100 + 300 * i)).join("");
+      write(folder, "site/index.html", `<!doctype html><link rel="icon" href="data:,">${icons}<script type="module" src="main.js"></script>`);
+      write(folder, "main.js", onAPage.replace(/from "whither[^"]*"/, `from "${entry}"`));
+      const bundle = { bundle: true, format: "esm", target: "es2022", outdir: "site", logLevel: "warning" };
+      await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...bundle });
+      const server = await serve(join(folder, "site"));
+      const browser = await launch();
+      try {
+        const tab = await browser.newPage();
+        const errors = [];
+        tab.on("pageerror", (error) => errors.push(String(error)));
+        await tab.goto(server.url, { waitUntil: "networkidle" });
+        // a minimum-jerk movement from between the first two icons to the last; 70% of the way
+        for (let k = 0; k <= 28; k++) {
+          const u = k / 40;
+          const way = 10 * u ** 3 - 15 * u ** 4 + 6 * u ** 5;
+          await tab.mouse.move(300 + 748 * way, 600 - 252 * way);
+          await tab.waitForTimeout(12);
+        }
+        assert.deepEqual(await tab.evaluate(() => [...document.querySelectorAll(".next")].map(({ id }) => id)), ["icon3"]);
+        assert.deepEqual(errors, []);
+      } finally {
+        await browser.close();
+        await server.close();
       }
-      assert.deepEqual(await tab.evaluate(() => [...document.querySelectorAll(".next")].map(({ id }) => id)), ["icon3"]);
-      assert.deepEqual(errors, []);
-    } finally {
-      await browser.close();
-      await server.close();
-    }
-  });
+    });
+  }
 });

@@ -8,6 +8,7 @@ import { project, write } from "./support.mjs";
 const program = `
 import { init, initSync, pointerScenario, Predictor, WhitherError, type Scenario } from "whither";
 import { init as initSlim } from "whither/slim";
+import * as pointing from "whither/pointing";
 import { fit, type Track } from "whither/study";
 
 const scenario: Scenario = {
@@ -40,6 +41,13 @@ export async function use(bytes: ArrayBuffer): Promise<string> {
 }
 
 new Predictor(pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }]));
+
+export async function point(options: pointing.InitOptions): Promise<number> {
+  await pointing.init(options);
+  return new pointing.Predictor(pointing.pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }])).none;
+}
+// @ts-expect-error: there are no sequences
+void pointing.ConditionallyMarkovSequence;
 
 export async function learn(tracks: readonly Track[]): Promise<Scenario> {
   const fitted = await fit(tracks, scenario, { constants: ["motion.noise"], progress: ({ share }) => share < 0.5 });
