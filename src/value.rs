@@ -8,7 +8,7 @@ use crate::error::{Code, Error, Result};
 
 mod fields;
 mod quote;
-mod say;
+pub(crate) mod say;
 mod serial;
 
 pub use fields::Fields;
