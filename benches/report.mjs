@@ -26,8 +26,12 @@ export function report(result) {
   showMemory(result.memory);
   console.log("From `import` to the first prediction, Chromium:\n");
   table(
-    ["processor slowed down", "ms"],
-    chromium.start.map(({ throttle, milliseconds }) => [throttle === 1 ? "not" : `${throttle} times`, digits(milliseconds)]),
+    ["processor slowed down", "`whither`, ms", "`whither/pointing`, ms"],
+    chromium.start.map(({ throttle, whither, pointing }) => [
+      throttle === 1 ? "not" : `${throttle} times`,
+      digits(whither),
+      digits(pointing),
+    ]),
   );
   console.log("Size:\n");
   showSizes(result.sizes);

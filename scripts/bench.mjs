@@ -114,30 +114,31 @@ async function inChromium(quick) {
   }
 }
 
-/** Milliseconds from the import to the first prediction, by a processor that is slowed down; the median over pages. */
+/** Milliseconds from the import of each entry to the first prediction, by a processor that is slowed down; medians over pages. */
 async function starts(browser, url, pages) {
   const result = [];
   for (const throttle of THROTTLES) {
     console.log(`Chromium: init() on a processor ${throttle} times as slow`);
-    const seen = [];
-    for (let k = 0; k < pages; k++) {
+    const seen = { index: [], pointing: [] };
+    for (let k = 0; k < 2 * pages; k++) {
+      const entry = k % 2 === 0 ? "index" : "pointing";
       const context = await browser.newContext();
       const page = await context.newPage();
       const session = await context.newCDPSession(page);
       await page.goto(url);
       await session.send("Emulation.setCPUThrottlingRate", { rate: throttle });
-      seen.push(await page.evaluate(firstPrediction));
+      seen[entry].push(await page.evaluate(firstPrediction, entry));
       await context.close();
     }
-    result.push({ throttle, milliseconds: median(seen) });
+    result.push({ throttle, whither: median(seen.index), pointing: median(seen.pointing) });
   }
   return result;
 }
 
 /** Runs in the page. */
-async function firstPrediction() {
+async function firstPrediction(entry) {
   const start = performance.now();
-  const { init, pointerScenario, Predictor } = await import("/dist/index.js");
+  const { init, pointerScenario, Predictor } = await import(`/dist/${entry}.js`);
   await init();
   const target = (id, x) => ({ id, x, y: 200, width: 80, height: 80 });
   const predictor = new Predictor(pointerScenario([target("left", 100), target("right", 600)]));

@@ -39,6 +39,14 @@
 //!
 //! For pointers on a screen there is [`pointer::pointer_scenario`].
 //!
+//! # Features
+//!
+//! | feature | what | by default |
+//! |---|---|---|
+//! | `papers` | the methods of the papers, every motion model, the sequences; without it a scenario's `method` is `"pointing"` | on |
+//! | `fit` | [`study`]'s learning of a scenario's constants from recorded movements | off |
+//! | `wasm`, `wasm-fit` | the classes of the npm package, for its own build | off |
+//!
 //! # Units
 //!
 //! Seconds for time; any unit of length, the same everywhere (pixels on a page). Deviations, not variances, where one number
@@ -88,7 +96,7 @@
 //!
 //! # Errors in the printed papers
 //!
-//! Each was checked numerically; the corrected form is what is built, .
+//! Each was checked numerically; the corrected form is what is built.
 //!
 //! - Liang (13): the prediction inside the pseudo-observation is `F(h) mu + M(h)`; the printed `F(h) mu - M(h)` breaks the
 //!   identity with Algorithm 1 whenever `M` is not zero.
