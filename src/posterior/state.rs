@@ -81,8 +81,8 @@ impl Posterior {
                             continue;
                         }
                         let center = destinations.center(i);
-                        let mean = &onward.transition * world.filter.mean(i) + onward.constant(center);
-                        let error = rest.error(destinations.mean(i), &mean, center);
+                        let mean = &onward.transition * world.filter.mean(i) + onward.constant(&center);
+                        let error = rest.error(destinations.mean(i), &mean, &center);
                         moments.add(weight, mean + &conditioned.gain * error, &remaining);
                     }
                 }
