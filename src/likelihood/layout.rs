@@ -118,7 +118,9 @@ impl Layout {
         if self.is_own() {
             *aside = Vec::new();
             let length = self.blocks * WIDTH;
-            into.reserve_exact(length.saturating_sub(into.len()));
+            if into.capacity() < length {
+                into.reserve_exact(length.saturating_sub(into.len()));
+            }
             into.resize(length, 0.0);
             return into.as_chunks_mut().0;
         }

@@ -296,7 +296,7 @@ impl Destinations {
     /// The endpoint's mean `a_i`, of length `l`.
     #[must_use]
     pub fn mean(&self, i: usize) -> Vec<f64> {
-        self.components(i, 0)
+        self.means.components(i, 0, self.kind(i).covariance.nrows())
     }
 
     /// The centre, the first `d` components of the endpoint's mean.
@@ -308,16 +308,7 @@ impl Destinations {
     /// The components of the endpoint's mean after the first `d`.
     #[must_use]
     pub fn rest(&self, i: usize) -> Vec<f64> {
-        self.components(i, self.dimensions())
-    }
-
-    fn components(&self, i: usize, from: usize) -> Vec<f64> {
-        let length = self.kind(i).covariance.nrows();
-        let mut components = Vec::with_capacity(length.saturating_sub(from));
-        for k in from..length {
-            components.push(self.means.get(i, k));
-        }
-        components
+        self.means.components(i, self.dimensions(), self.kind(i).covariance.nrows())
     }
 
     /// The centres in whole blocks, a list for each axis. The last block is filled up with its first destination.

@@ -41,6 +41,11 @@ impl Column {
         self.numbers.get(..self.length).unwrap_or_default()
     }
 
+    /// One of them.
+    pub fn get(&self, i: usize) -> f64 {
+        self.numbers.get(i).copied().unwrap_or_default()
+    }
+
     /// Puts one behind the others.
     pub fn push(&mut self, x: f64) {
         self.numbers.truncate(self.length);

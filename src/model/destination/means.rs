@@ -45,25 +45,28 @@ impl Means {
         Self { dimensions, components }
     }
 
-    fn component(&self, k: usize) -> &[f64] {
-        self.components.get(k).map(Column::numbers).unwrap_or_default()
-    }
-
-    /// Component `k` of mean `i`; zero where it has none.
-    pub fn get(&self, i: usize, k: usize) -> f64 {
-        self.component(k).get(i).copied().unwrap_or_default()
+    /// So many components of one of them, but not the first ones.
+    pub fn components(&self, i: usize, first: usize, length: usize) -> Vec<f64> {
+        let mut components = Vec::with_capacity(length.saturating_sub(first));
+        for column in self.components.iter().take(length).skip(first) {
+            components.push(column.get(i));
+        }
+        components
     }
 
     pub fn center(&self, i: usize) -> Center {
-        Center { numbers: [self.get(i, 0), self.get(i, 1), self.get(i, 2)], dimensions: self.dimensions }
+        let component = |k: usize| self.components.get(k).map_or(0.0, |column| column.get(i));
+        Center { numbers: [component(0), component(1), component(2)], dimensions: self.dimensions }
     }
 
     /// The centres in whole blocks, a list for each axis, empty for those that there are not. The last block is filled up with
     /// its first place.
     pub fn coordinates(&self) -> [&[Block]; AXES] {
-        let mut axes = self.components.iter().take(self.dimensions).map(Column::blocks);
-        let mut next = || axes.next().unwrap_or_default();
-        [next(), next(), next()]
+        let axis = |k: usize| match self.components.get(k) {
+            Some(column) if k < self.dimensions => column.blocks(),
+            _ => &[],
+        };
+        [axis(0), axis(1), axis(2)]
     }
 
     /// Puts one behind the others.
