@@ -55,7 +55,8 @@ impl Layout {
         self.order.shrink_to_fit();
         for axis in 0..destinations.dimensions() {
             if !self.is_own() {
-                self.coordinates[axis] = self.gather(&|i, _| destinations.center(i)[axis]);
+                let own = destinations.coordinates()[axis].as_flattened();
+                self.coordinates[axis] = self.gather(&|i, _| own.get(i).copied().unwrap_or_default());
             }
             if self.own_variances {
                 self.variances[axis] = self.gather(&|i, _| destinations.kind(i).covariance[(axis, axis)]);

@@ -39,7 +39,8 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
     let (before, mut places) = (members.to_vec(), vec![0u64; members.len()]);
     for axis in 0..d {
-        let center = |i: u32| destinations.center(i as usize)[axis];
+        let own = destinations.coordinates()[axis].as_flattened();
+        let center = |i: u32| own.get(i as usize).copied().unwrap_or_default();
         let (low, high) = edges(before.iter().map(|&i| center(i)));
         for (place, &i) in places.iter_mut().zip(&before) {
             let share = ((center(i) - low) / (high - low) * 65_535.0) as u64;
