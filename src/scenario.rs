@@ -212,7 +212,7 @@ impl Scenario {
         if !matches!(method, Method::Bridging | Method::SingleFilter) {
             return Ok(());
         }
-        let length = (0..destinations.len()).map(|i| destinations.mean(i).len()).max().unwrap_or(0);
+        let length = (0..destinations.len()).map(|i| destinations.kind(i).covariance.nrows()).max().unwrap_or(0);
         // the rank is the same after any time
         if !self.motion.candidates.iter().any(|c| Endpoint::after(c.model.as_ref(), 1.0, length).is_singular()) {
             return Ok(());
@@ -336,7 +336,7 @@ fn check_for_pointing(destinations: &Destinations) -> Result<()> {
         let extra = [
             ("arrival", kind.arrival.is_some()),
             ("endVelocity", kind.end_velocity.is_some()),
-            ("mean", destinations.mean(i).len() > destinations.dimensions()),
+            ("mean", kind.covariance.nrows() > destinations.dimensions()),
         ];
         for (key, found) in extra {
             if found {

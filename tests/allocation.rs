@@ -9,30 +9,49 @@ use serde_json::{Value as Json, json};
 use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Predictor, Scenario};
 
-/// Targets spread over a screen, each of its own size where wanted.
-fn targets(count: u32, own_sizes: bool) -> Vec<Json> {
+/// The sizes of the targets.
+#[derive(Clone, Copy)]
+enum Sizes {
+    One,
+    /// In turns, so that targets of one size have to be brought together.
+    Two,
+    Own,
+}
+
+impl Sizes {
+    fn of(self, i: u32) -> f64 {
+        match self {
+            Self::One => 80.0,
+            Self::Two => 80.0 - f64::from(i % 2 * 30),
+            Self::Own => 40.0 + f64::from(i) * 0.25,
+        }
+    }
+}
+
+/// Targets spread over a screen.
+fn targets(count: u32, sizes: Sizes) -> Vec<Json> {
     let target = |i: u32| {
-        let size = if own_sizes { 40.0 + f64::from(i) * 0.25 } else { 80.0 };
+        let size = sizes.of(i);
         json!({ "id": format!("icon {i}"), "center": [100 + 150 * (i % 7), 100 + 150 * (i / 7)], "size": [size, 60.0] })
     };
     (0..count).map(target).collect()
 }
 
-fn pseudo_observation(count: u32, own_sizes: bool) -> Predictor {
+fn pseudo_observation(count: u32, sizes: Sizes) -> Predictor {
     let motion = json!({ "type": "constantVelocity", "dimensions": 2, "noise": 3000 });
     read(&json!({
         "method": "pseudoObservation", "motion": motion, "observation": { "noise": 1.5 },
         "initial": { "velocity": 1000 }, "arrival": { "type": "horizon", "from": 0.05, "to": 0.5 },
-        "none": 0.05, "destinations": targets(count, own_sizes),
+        "none": 0.05, "destinations": targets(count, sizes),
     }))
 }
 
-fn pointing(count: u32, own_sizes: bool) -> Predictor {
+fn pointing(count: u32, sizes: Sizes) -> Predictor {
     let targets = (0..count).map(|i| PointerTarget {
         id: format!("icon {i}"),
         x: f64::from(100 + 150 * (i % 7)),
         y: f64::from(100 + 150 * (i / 7)),
-        width: if own_sizes { 40.0 + f64::from(i) * 0.25 } else { 80.0 },
+        width: sizes.of(i),
         height: 60.0,
     });
     let options = PointerOptions { none: 0.05 };
@@ -61,12 +80,34 @@ fn after_a_first_movement(mut predictor: Predictor) -> AllocationInfo {
 
 #[test]
 fn pseudo_observation_allocates_nothing_after_the_first_observations() {
-    assert_eq!(after_a_first_movement(pseudo_observation(21, false)).count_total, 0);
-    assert_eq!(after_a_first_movement(pseudo_observation(200, true)).count_total, 0);
+    for (count, sizes) in [(21, Sizes::One), (200, Sizes::Own), (200, Sizes::Two)] {
+        assert_eq!(after_a_first_movement(pseudo_observation(count, sizes)).count_total, 0);
+    }
 }
 
 #[test]
 fn pointing_allocates_nothing_after_the_first_observations() {
-    assert_eq!(after_a_first_movement(pointing(21, false)).count_total, 0);
-    assert_eq!(after_a_first_movement(pointing(200, true)).count_total, 0);
+    for (count, sizes) in [(21, Sizes::One), (200, Sizes::Own), (200, Sizes::Two)] {
+        assert_eq!(after_a_first_movement(pointing(count, sizes)).count_total, 0);
+    }
+}
+
+/// Bytes that one more target of one size takes, of a predictor in mid-movement.
+fn bytes_of_one_more(make: fn(u32, Sizes) -> Predictor) -> i64 {
+    let weigh = |count: u32| {
+        let running = || {
+            let mut predictor = make(count, Sizes::One);
+            movement(&mut predictor, 0, 5);
+            std::mem::forget(predictor);
+        };
+        measure(running).bytes_current
+    };
+    (weigh(3000) - weigh(1000)) / 2000
+}
+
+#[test]
+fn one_more_destination_takes_few_bytes() {
+    let (pseudo_observation, pointing) = (bytes_of_one_more(pseudo_observation), bytes_of_one_more(pointing));
+    println!("{pseudo_observation} and {pointing}");
+    assert!(pseudo_observation <= 64 && pointing <= 96);
 }

@@ -70,7 +70,7 @@ impl Likelihood for Algorithm2 {
                 let mean = step.before.mean(i);
                 let smoothed = &mean + apply(&before.gain, &scene.endpoint_error(i, &whole, &mean));
                 let moved: DVector<f64> =
-                    apply(&transition.transition, &smoothed) + transition.constant(scene.destinations.center(i));
+                    apply(&transition.transition, &smoothed) + transition.constant(&scene.destinations.center(i));
                 let bridged = &moved + apply(&onward.gain, &scene.endpoint_error(i, &rest, &moved));
                 self.table[scene.plan.rows[i] + node.index] +=
                     density.log_density(&(&step.measurement.value - apply(observation, &bridged)));

@@ -59,7 +59,7 @@ impl Likelihood for Bridging {
             for &i in &node.group.members {
                 let place = (scene.plan.rows[i as usize] + node.index) * stride;
                 self.means[place..place + s].copy_from_slice(scene.first.mean.as_slice());
-                self.means[place + s..place + s + l].copy_from_slice(scene.destinations.mean(i as usize));
+                self.means[place + s..place + s + l].copy_from_slice(&scene.destinations.mean(i as usize));
             }
         }
     }
@@ -92,7 +92,7 @@ impl Likelihood for Bridging {
                 let place = row * stride;
                 let mut mean = apply(&onward, &DVector::from_column_slice(&self.means[place..place + s + l]));
                 let center = scene.destinations.center(i);
-                let offset = bridge.offset(&h.constant(center), &r.constant(center));
+                let offset = bridge.offset(&h.constant(&center), &r.constant(&center));
                 mean.rows_mut(0, s).zip_apply(&offset, |x, o| *x += o);
                 if let Some(correction) = &correction {
                     let error = &step.measurement.value - apply(&observation, &mean);

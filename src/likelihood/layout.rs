@@ -1,4 +1,7 @@
 //! Destinations as flat arrays of blocks, those of one class together: what the hot loops run over.
+//!
+//! Where those of one class follow one another anyway, they stand in their own order, and nothing is kept twice: what is said
+//! of them is read from the destinations, and what is found is written where it is wanted.
 
 use crate::math::lanes::{Block, WIDTH};
 use crate::math::mixture::{AXES, Places};
@@ -9,14 +12,19 @@ use std::ops::Range;
 const NOBODY: u32 = u32::MAX;
 
 /// Some blocks of each axis; those of an axis that there is not are empty.
-fn part<'a>([x, y, z]: &'a [Vec<Block>; AXES], blocks: &Range<usize>) -> [&'a [Block]; AXES] {
+fn part<'a>([x, y, z]: [&'a [Block]; AXES], blocks: &Range<usize>) -> [&'a [Block]; AXES] {
     let of = |list: &'a [Block]| list.get(blocks.clone()).unwrap_or_default();
     [of(x), of(y), of(z)]
+}
+
+fn lists([x, y, z]: &[Vec<Block>; AXES]) -> [&[Block]; AXES] {
+    [x, y, z]
 }
 
 /// Where the destinations stand.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
+    /// The destinations' coordinates in another order than their own.
     coordinates: [Vec<Block>; AXES],
     variances: [Vec<Block>; AXES],
     /// Which destination stands where; empty where they stand in their own order.
@@ -27,25 +35,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Forgets all destinations and keeps the room.
-    pub fn clear(&mut self) {
-        self.order.clear();
-        self.blocks = 0;
-        self.coordinates.iter_mut().chain(&mut self.variances).for_each(Vec::clear);
-        self.own_variances = false;
-    }
-
     /// Puts destinations after those that are there and tells where they stand; `own` is whether each has its own variances.
-    pub fn place(&mut self, destinations: &Destinations, members: &[u32], own: bool) -> Range<usize> {
+    pub fn place(&mut self, members: &[u32], own: bool) -> Range<usize> {
         let start = self.blocks;
         self.blocks += members.len().div_ceil(WIDTH);
         self.own_variances |= own && !members.is_empty();
         for chunk in members.chunks(WIDTH) {
-            // a block is filled up with its first destination, at no weight
-            let member = |lane: usize| *chunk.get(lane).unwrap_or(&chunk[0]) as usize;
-            for axis in 0..destinations.dimensions() {
-                self.coordinates[axis].push(std::array::from_fn(|lane| destinations.center(member(lane))[axis]));
-            }
             self.order.extend((0..WIDTH).map(|lane| chunk.get(lane).copied().unwrap_or(NOBODY)));
         }
         start..self.blocks
@@ -59,12 +54,20 @@ impl Layout {
         }
         self.order.shrink_to_fit();
         for axis in 0..destinations.dimensions() {
-            self.coordinates[axis].shrink_to_fit();
+            if !self.is_own() {
+                let own = destinations.coordinates()[axis].as_flattened();
+                self.coordinates[axis] = self.gather(&|i, _| own.get(i).copied().unwrap_or_default());
+            }
             if self.own_variances {
-                let variance = |i: usize| destinations.kind(i).covariance[(axis, axis)];
-                self.variances[axis] = self.members().map(|block| block.map(|(i, _)| variance(i))).collect();
+                self.variances[axis] = self.gather(&|i, _| destinations.kind(i).covariance[(axis, axis)]);
             }
         }
+    }
+
+    /// Whether destinations stand as they follow one another, in the blocks that they have themselves.
+    #[must_use]
+    pub fn is_own(&self) -> bool {
+        self.order.is_empty()
     }
 
     /// How many blocks there are.
@@ -73,7 +76,8 @@ impl Layout {
         self.blocks
     }
 
-    /// The destinations of each block and whether they stand there themselves or only fill it up.
+    /// The destinations of each block and whether they stand there themselves or only fill it up, which the block's first one
+    /// does, at no weight.
     pub fn members(&self) -> impl ExactSizeIterator<Item = [(usize, bool); WIDTH]> {
         let member = |place: usize| match self.order.get(place) {
             Some(&i) => (i != NOBODY).then_some(i as usize),
@@ -85,26 +89,50 @@ impl Layout {
         })
     }
 
+    /// A number of each destination and of those that only fill a block up, in the order of the arrays.
+    #[must_use]
+    pub fn gather(&self, number: &dyn Fn(usize, bool) -> f64) -> Vec<Block> {
+        self.members().map(|block| block.map(|(i, stands)| number(i, stands))).collect()
+    }
+
     /// The coordinates of all, a list for each axis.
     #[must_use]
-    pub fn coordinates(&self) -> [&[Block]; AXES] {
-        self.coordinates.each_ref().map(Vec::as_slice)
+    pub fn coordinates<'a>(&'a self, destinations: &'a Destinations) -> [&'a [Block]; AXES] {
+        if self.is_own() { destinations.coordinates() } else { lists(&self.coordinates) }
     }
 
     /// The places of some blocks.
     #[must_use]
-    pub fn places(&self, blocks: &Range<usize>, origin: [f64; AXES]) -> Places<'_> {
-        Places { coordinates: part(&self.coordinates, blocks), variances: part(&self.variances, blocks), origin }
+    pub fn places<'a>(
+        &'a self,
+        destinations: &'a Destinations,
+        blocks: &Range<usize>,
+        origin: [f64; AXES],
+    ) -> Places<'a> {
+        let variances = part(lists(&self.variances), blocks);
+        Places { coordinates: part(self.coordinates(destinations), blocks), variances, origin }
     }
 
-    /// Takes what stands in the order of the arrays to the order of the destinations.
-    pub fn scatter(&self, from: &[Block], into: &mut Vec<f64>) {
-        into.clear();
-        if self.order.is_empty() {
-            return into.extend(&from.as_flattened()[..self.count]);
+    /// Room for a number of each destination: in `into` itself where they stand in their own order, else in `aside`. Every
+    /// block is to be written, and then [`Layout::settle`] called.
+    pub fn room<'a>(&self, aside: &'a mut Vec<Block>, into: &'a mut Vec<f64>) -> &'a mut [Block] {
+        if self.is_own() {
+            *aside = Vec::new();
+            let length = self.blocks * WIDTH;
+            if into.capacity() < length {
+                into.reserve_exact(length.saturating_sub(into.len()));
+            }
+            into.resize(length, 0.0);
+            return into.as_chunks_mut().0;
         }
+        aside.resize(self.blocks, [0.0; WIDTH]);
+        aside
+    }
+
+    /// Brings what was written into the room to the order of the destinations.
+    pub fn settle(&self, aside: &[Block], into: &mut Vec<f64>) {
         into.resize(self.count, 0.0);
-        for (x, &i) in from.as_flattened().iter().zip(&self.order) {
+        for (x, &i) in aside.as_flattened().iter().zip(&self.order) {
             if let Some(place) = into.get_mut(i as usize) {
                 *place = *x;
             }

@@ -250,6 +250,6 @@ impl<'a> Scene<'a> {
 
     /// The endpoint's prediction error for destination `i` from a state.
     pub(crate) fn endpoint_error(self, i: usize, endpoint: &Endpoint, state: &DVector<f64>) -> DVector<f64> {
-        endpoint.error(self.destinations.mean(i), state, self.destinations.center(i))
+        endpoint.error(self.destinations.mean(i), state, &self.destinations.center(i))
     }
 }

@@ -85,7 +85,8 @@ impl Plan {
             let grid = match *known {
                 Some(grid) if !prior.needs_distance() => grid,
                 _ => {
-                    let offsets = destinations.center(i).iter().zip(start).map(|(a, y)| (a - y) * (a - y));
+                    let center = destinations.center(i);
+                    let offsets = center.iter().zip(start).map(|(a, y)| (a - y) * (a - y));
                     let distance = offsets.sum::<f64>().sqrt();
                     plan.horizons.push(prior.is_horizon());
                     plan.possible.push(false);

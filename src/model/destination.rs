@@ -3,14 +3,21 @@
 use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
+use crate::math::lanes::Block;
+use crate::math::mixture::AXES;
 use crate::math::order::{Numbering, order};
 use crate::value::{Node, Value, number, quote, say};
 use nalgebra::{DMatrix, DVector};
 
+mod column;
 mod edit;
 mod ids;
+mod means;
 
+use column::{Column, Filler};
 use ids::Ids;
+pub use means::Center;
+use means::Means;
 
 /// More destinations than this are an error, so that no input can exhaust the memory.
 pub const MOST_DESTINATIONS: usize = 1_000_000;
@@ -159,7 +166,8 @@ impl Kind {
     }
 }
 
-/// The destinations of a predictor, in order, as flat arrays; what they share is kept once for each kind.
+/// The destinations of a predictor, in order, as flat arrays, a list for each axis, which the hot loops read as they stand;
+/// what destinations share is kept once for each kind.
 ///
 /// ```
 /// use whither::{Value, model::destination::Destinations, value::Node};
@@ -173,17 +181,13 @@ impl Kind {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Destinations {
-    dimensions: usize,
     ids: Ids,
     /// Positions in `ids`, sorted by id.
     by_id: Vec<u32>,
-    /// The longest `l`.
-    stride: usize,
-    /// `stride` numbers for each destination; those after the first `l` are zero.
-    means: Vec<f64>,
-    priors: Vec<f64>,
+    means: Means,
+    priors: Column,
     /// The priors in force where they are learnt.
-    learnt: Option<Vec<f64>>,
+    learnt: Option<Column>,
     kind_of: Vec<u32>,
     kinds: Vec<Kind>,
 }
@@ -204,12 +208,10 @@ impl Destinations {
             return Err(Error::new(Code::TooLarge, node.path(), message));
         }
         let mut all = Self {
-            dimensions,
             ids: Ids::with_capacity(count),
             by_id: Vec::new(),
-            stride: dimensions,
-            means: Vec::with_capacity(count * dimensions),
-            priors: Vec::with_capacity(count),
+            means: Means::with_capacity(count, dimensions),
+            priors: Column::with_capacity(count, Filler::Zero),
             learnt: None,
             kind_of: Vec::with_capacity(count),
             kinds: Vec::new(),
@@ -237,27 +239,14 @@ impl Destinations {
     }
 
     fn push(&mut self, destination: &Destination, kind: u32) {
-        self.widen(destination.mean.len());
         self.ids.push(&destination.id);
-        self.means.extend(&destination.mean);
-        self.means.resize(self.ids.len() * self.stride, 0.0);
+        self.means.push(&destination.mean);
         self.priors.push(destination.prior);
         self.kind_of.push(kind);
     }
 
-    /// Makes room for a mean of this length in every row.
-    fn widen(&mut self, length: usize) {
-        if length > self.stride {
-            let mut wider = vec![0.0; self.len() * length];
-            for (row, mean) in wider.chunks_exact_mut(length).zip(self.means.chunks_exact(self.stride)) {
-                row[..mean.len()].copy_from_slice(mean);
-            }
-            (self.means, self.stride) = (wider, length);
-        }
-    }
-
     fn check_priors(&self, path: &str) -> Result<()> {
-        let total: f64 = self.priors.iter().sum();
+        let total: f64 = self.priors.numbers().iter().sum();
         if total > 0.0 && total.is_finite() {
             return Ok(());
         }
@@ -283,7 +272,7 @@ impl Destinations {
     /// Spatial dimensions `d`.
     #[must_use]
     pub const fn dimensions(&self) -> usize {
-        self.dimensions
+        self.means.dimensions
     }
 
     /// The ids, in order.
@@ -318,32 +307,55 @@ impl Destinations {
 
     /// The endpoint's mean `a_i`, of length `l`.
     #[must_use]
-    pub fn mean(&self, i: usize) -> &[f64] {
-        let length = self.kind(i).covariance.nrows();
-        &self.means[i * self.stride..i * self.stride + length]
+    pub fn mean(&self, i: usize) -> Vec<f64> {
+        self.means.components(i, 0, self.kind(i).covariance.nrows())
     }
 
     /// The centre, the first `d` components of the endpoint's mean.
     #[must_use]
-    pub fn center(&self, i: usize) -> &[f64] {
-        &self.means[i * self.stride..i * self.stride + self.dimensions]
+    pub fn center(&self, i: usize) -> Center {
+        self.means.center(i)
+    }
+
+    /// The components of the endpoint's mean after the first `d`.
+    #[must_use]
+    pub fn rest(&self, i: usize) -> Vec<f64> {
+        self.means.components(i, self.dimensions(), self.kind(i).covariance.nrows())
+    }
+
+    /// The centres in whole blocks, a list for each axis. The last block is filled up with its first destination.
+    #[must_use]
+    pub(crate) fn coordinates(&self) -> [&[Block]; AXES] {
+        self.means.coordinates()
+    }
+
+    fn in_force(&self) -> &Column {
+        self.learnt.as_ref().unwrap_or(&self.priors)
     }
 
     /// The prior weights, not normalised.
     #[must_use]
     pub fn priors(&self) -> &[f64] {
-        self.learnt.as_deref().unwrap_or(&self.priors)
+        self.in_force().numbers()
+    }
+
+    /// The same in whole blocks; the last one is filled up with zeros.
+    #[must_use]
+    pub(crate) fn prior_blocks(&self) -> &[Block] {
+        self.in_force().blocks()
     }
 
     /// The prior weights as they were given, not normalised.
     #[must_use]
     pub fn given_priors(&self) -> &[f64] {
-        &self.priors
+        self.priors.numbers()
     }
 
     /// Puts learnt priors in force, one for each destination, until the destinations change.
-    pub fn learn(&mut self, priors: Vec<f64>) {
-        self.learnt = (priors.len() == self.len()).then_some(priors);
+    pub fn learn(&mut self, priors: &[f64]) {
+        let mut learnt = Column::with_capacity(priors.len(), Filler::Zero);
+        priors.iter().for_each(|prior| learnt.push(*prior));
+        self.learnt = (priors.len() == self.len()).then_some(learnt);
     }
 
     /// What destination `i` shares with others.
@@ -369,8 +381,8 @@ impl Destinations {
     pub fn get(&self, i: usize) -> Destination {
         Destination {
             id: self.id(i).to_owned(),
-            mean: self.mean(i).to_vec(),
-            prior: self.priors[i],
+            mean: self.mean(i),
+            prior: self.priors.numbers()[i],
             kind: self.kind(i).clone(),
         }
     }

@@ -66,8 +66,8 @@ impl Endpoint {
 
     /// `a - (B x + n + D c)`, the pseudo-observation's prediction error.
     #[must_use]
-    pub fn error(&self, endpoint: &[f64], state: &DVector<f64>, center: &[f64]) -> DVector<f64> {
-        DVector::from_column_slice(endpoint) - apply(&self.matrix, state) - self.constant(center)
+    pub fn error(&self, endpoint: Vec<f64>, state: &DVector<f64>, center: &[f64]) -> DVector<f64> {
+        DVector::from_vec(endpoint) - apply(&self.matrix, state) - self.constant(center)
     }
 }
 

@@ -5,6 +5,7 @@ pub mod pointing;
 pub mod state;
 
 use crate::likelihood::candidates::Movement;
+use crate::math::lanes::WIDTH;
 use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::model::destination::Destinations;
 
@@ -59,6 +60,8 @@ impl Posterior {
     pub fn believe_prior(&mut self, destinations: &Destinations, none: f64) {
         let total: f64 = destinations.priors().iter().sum();
         self.probabilities.clear();
+        // room for whole blocks, which a step fills before it cuts them to the count
+        self.probabilities.reserve_exact(destinations.len().next_multiple_of(WIDTH));
         self.probabilities.extend(destinations.priors().iter().map(|prior| (1.0 - none) * prior / total));
         self.none = none;
     }

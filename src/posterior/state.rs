@@ -82,8 +82,8 @@ impl Posterior {
                             continue;
                         }
                         let center = destinations.center(i);
-                        let mean = apply(&onward.transition, &world.filter.mean(i)) + onward.constant(center);
-                        let error = rest.error(destinations.mean(i), &mean, center);
+                        let mean = apply(&onward.transition, &world.filter.mean(i)) + onward.constant(&center);
+                        let error = rest.error(destinations.mean(i), &mean, &center);
                         moments.add(weight, mean + apply(&conditioned.gain, &error), &remaining);
                     }
                 }

@@ -94,7 +94,7 @@ impl Predictor {
     fn origins(&self, changed: &Destinations) -> Result<Vec<usize>> {
         let find = |j: usize| {
             let found =
-                self.destinations.find(changed.id(j)).filter(|&i| self.destinations.center(i) == changed.center(j));
+                self.destinations.find(changed.id(j)).filter(|&i| *self.destinations.center(i) == *changed.center(j));
             found.ok_or_else(|| {
                 let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
                                evidence accumulates for each of them";

@@ -167,7 +167,7 @@ impl Track {
             }
             Followed::Telescoped { now, before, .. } => {
                 let believed = before.as_deref_mut().unwrap_or(now);
-                match believed.probabilities(none, &mut posterior.probabilities) {
+                match believed.probabilities(destinations, none, &mut posterior.probabilities) {
                     Some(none) => posterior.none = none,
                     None => posterior.believe_prior(destinations, none),
                 }
@@ -181,7 +181,8 @@ impl Track {
         match &mut self.followed {
             Followed::Papers { .. } => {}
             Followed::Telescoped { now, before, .. } => {
-                before.as_deref_mut().unwrap_or(now).log_likelihoods(&mut posterior.log_likelihoods);
+                let believed = before.as_deref_mut().unwrap_or(now);
+                believed.log_likelihoods(destinations, &mut posterior.log_likelihoods);
             }
             Followed::Pointing(pointing) => pointing.log_likelihoods(destinations, &mut posterior.log_likelihoods),
         }

@@ -135,14 +135,14 @@ impl Pointing {
                 start: &self.course.start,
                 power: self.parameters.power.after(self.course.elapsed),
             };
-            if let Some(log_sum) = self.work.probabilities(&self.targets, &now, into) {
+            if let Some(log_sum) = self.work.probabilities(destinations, &self.targets, &now, into) {
                 return Some(log_sum);
             }
         }
         self.log_likelihoods(destinations, into);
         let total: f64 = destinations.priors().iter().sum();
         for (i, (value, prior)) in into.iter_mut().zip(destinations.priors()).enumerate() {
-            let offset = minus(&vector(destinations.center(i)), &self.course.start);
+            let offset = minus(&vector(&destinations.center(i)), &self.course.start);
             let near = log_near(self.parameters.near, &offset, destinations.kind(i), self.course.dimensions());
             *value += near + (prior / total).ln();
         }
@@ -161,10 +161,10 @@ impl Pointing {
         let direction = DirectionNow::new(&parameters.direction, &self.course);
         into.extend((0..destinations.len()).map(|i| {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
-            let offset = minus(&vector(center), &self.course.start);
+            let offset = minus(&vector(&center), &self.course.start);
             let start = log_start(&parameters.start, &offset) - self.log_volume;
             let seen = direction.log_evidence(&offset, covariance);
-            let whole = power * (self.nodes.log_density(center, covariance) - start) + seen;
+            let whole = power * (self.nodes.log_density(&center, covariance) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
             if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
         }));

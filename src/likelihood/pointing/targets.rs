@@ -49,7 +49,7 @@ impl Targets {
     pub fn fill(&mut self, destinations: &Destinations, parameters: &Parameters, log_volume: f64, start: &Vector) {
         let d = destinations.dimensions();
         self.classes.clear();
-        self.layout.clear();
+        self.layout = Layout::default();
         let mut members: Vec<Vec<u32>> = vec![Vec::new(); destinations.kinds().len()];
         for (i, &kind) in (0..).zip(destinations.kind_of()) {
             members[kind as usize].push(i);
@@ -60,16 +60,16 @@ impl Targets {
             if several && members.len() < WIDTH && is_straight(&kind.covariance, d) {
                 pool.extend(members);
             } else {
-                self.place(destinations, members, Some(symmetric(&kind.covariance, d)));
+                self.place(members, Some(symmetric(&kind.covariance, d)));
             }
         }
-        self.place(destinations, &pool, None);
+        self.place(&pool, None);
         self.layout.finish(destinations);
         self.see(destinations, parameters, log_volume, start);
     }
 
-    fn place(&mut self, destinations: &Destinations, members: &[u32], covariance: Option<Symmetric>) {
-        let blocks = self.layout.place(destinations, members, covariance.is_none());
+    fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {
+        let blocks = self.layout.place(members, covariance.is_none());
         if !members.is_empty() {
             self.classes.push(Class { covariance, blocks });
         }
@@ -88,7 +88,7 @@ impl Targets {
         for block in self.layout.members() {
             let [mut over_start, mut directions, mut over_distance, mut priors] = [[0.0; WIDTH]; 4];
             for (lane, (i, stands)) in block.into_iter().enumerate() {
-                let (kind, offset) = (destinations.kind(i), minus(&vector(destinations.center(i)), start));
+                let (kind, offset) = (destinations.kind(i), minus(&vector(&destinations.center(i)), start));
                 let log_start = log_start(&parameters.start, &offset) - log_volume;
                 let near = log_near(parameters.near, &offset, kind, d);
                 let distance = dot(&offset, &offset).sqrt();

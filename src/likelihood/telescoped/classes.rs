@@ -1,10 +1,12 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
+use super::IN_RANGE;
 use super::leaves::{Leaf, MANY, arrange, leaves};
 use super::separable::{AxisEnd, MOST};
 use crate::likelihood::layout::Layout;
 use crate::likelihood::plan::Plan;
 use crate::math::lanes::{Block, WIDTH};
+use crate::math::mixture::AXES;
 use crate::math::order::Numbering;
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
@@ -54,17 +56,17 @@ pub struct End {
 }
 
 impl End {
-    fn new(mean: &[f64], covariance: &DMatrix<f64>, d: usize, separable: bool) -> Self {
+    fn new(rest: &[f64], covariance: &DMatrix<f64>, d: usize, separable: bool) -> Self {
         if !separable {
-            return Self { rest: mean[d..].to_vec(), covariance: covariance.clone(), axes: None };
+            return Self { rest: rest.to_vec(), covariance: covariance.clone(), axes: None };
         }
-        let length = mean.len();
+        let length = d + rest.len();
         let mut axes = [AxisEnd::default(); MOST];
         for (axis, end) in axes.iter_mut().enumerate().take(d) {
             for i in (axis..length).step_by(d) {
                 end.length += 1;
                 if i >= d {
-                    end.mean[i / d] = mean[i];
+                    end.mean[i / d] = rest[i - d];
                 }
                 for j in (axis..length).step_by(d) {
                     if i >= d || j >= d {
@@ -77,7 +79,7 @@ impl End {
         for i in 0..d {
             covariance[(i, i)] = 0.0;
         }
-        Self { rest: mean[d..].to_vec(), covariance, axes: Some(axes) }
+        Self { rest: rest.to_vec(), covariance, axes: Some(axes) }
     }
 
     fn key(&self) -> Vec<u64> {
@@ -114,8 +116,10 @@ pub struct Classes {
     pub ends: Vec<End>,
     /// The classes; those that share nodes and endpoint follow one another.
     pub classes: Vec<Class>,
-    /// Prior probabilities, which sum to one; zero where a block is filled up.
-    pub priors: Vec<Block>,
+    /// Prior weights; empty where those that the destinations have can be read as they stand.
+    priors: Vec<Block>,
+    /// What the prior weights sum to.
+    pub total: f64,
     /// Where they stand.
     pub layout: Layout,
 }
@@ -147,6 +151,7 @@ impl Classes {
             ends: Vec::new(),
             classes: Vec::new(),
             priors: Vec::new(),
+            total: destinations.priors().iter().sum(),
             layout: Layout::default(),
         };
         for ((nodes, end), drafts) in classes.drafts(destinations, plan) {
@@ -159,21 +164,43 @@ impl Classes {
                     if classes.separable && draft.members.len() >= MANY {
                         arrange(destinations, &mut draft.members);
                     }
-                    classes.place(destinations, &draft.members, (nodes, end, Some(draft.size)));
+                    classes.place(&draft.members, (nodes, end, Some(draft.size)));
                 }
             }
-            classes.place(destinations, &pool, (nodes, end, None));
+            classes.place(&pool, (nodes, end, None));
         }
         classes.layout.finish(destinations);
-        let total: f64 = destinations.priors().iter().sum();
-        let prior = |(i, stands): (usize, bool)| if stands { destinations.priors()[i] / total } else { 0.0 };
-        classes.priors.extend(classes.layout.members().map(|members| members.map(prior)));
+        classes.keep_priors(destinations);
         if classes.separable {
-            for class in classes.classes.iter_mut().filter(|class| class.size.is_some()) {
-                class.leaves = leaves(&classes.layout, &class.blocks, &classes.priors);
+            let mut all = std::mem::take(&mut classes.classes);
+            for class in all.iter_mut().filter(|class| class.size.is_some()) {
+                let places = classes.layout.places(destinations, &class.blocks, [0.0; AXES]);
+                class.leaves = leaves(&places, &class.blocks, classes.priors_in(destinations, &class.blocks));
             }
+            classes.classes = all;
         }
         classes
+    }
+
+    /// Writes the prior weights down where they cannot be read from the destinations: in another order, or beyond what leaves
+    /// room for the rest of a product.
+    fn keep_priors(&mut self, destinations: &Destinations) {
+        if self.layout.is_own() && IN_RANGE.contains(&self.total) {
+            return;
+        }
+        let total = std::mem::replace(&mut self.total, 1.0);
+        let prior = |i: usize, stands: bool| if stands { destinations.priors()[i] / total } else { 0.0 };
+        self.priors = self.layout.gather(&prior);
+    }
+
+    /// The prior weights, zero where a block is filled up.
+    pub fn priors<'a>(&'a self, destinations: &'a Destinations) -> &'a [Block] {
+        if self.priors.is_empty() { destinations.prior_blocks() } else { &self.priors }
+    }
+
+    /// Those of some blocks.
+    pub fn priors_in<'a>(&'a self, destinations: &'a Destinations, blocks: &Range<usize>) -> &'a [Block] {
+        self.priors(destinations).get(blocks.clone()).unwrap_or_default()
     }
 
     /// By nodes and endpoint, those of one size together.
@@ -185,11 +212,10 @@ impl Classes {
             let mut members: Vec<(usize, Draft)> = Vec::new();
             let mut here = Numbering::default();
             for &i in &group.members {
-                let mean = destinations.mean(i as usize);
-                let rest: Vec<u64> = mean[self.dimensions..].iter().map(|x| x.to_bits()).collect();
-                let (draft, is_new) = here.of(&rest);
+                let rest = destinations.rest(i as usize);
+                let (draft, is_new) = here.of(&rest.iter().map(|x| x.to_bits()).collect::<Vec<u64>>());
                 if is_new {
-                    let end = End::new(mean, covariance, self.dimensions, self.separable);
+                    let end = End::new(&rest, covariance, self.dimensions, self.separable);
                     let (number, is_new) = known_ends.of(&end.key());
                     if is_new {
                         self.ends.push(end);
@@ -210,13 +236,8 @@ impl Classes {
         all
     }
 
-    fn place(
-        &mut self,
-        destinations: &Destinations,
-        members: &[u32],
-        (nodes, end, size): (usize, usize, Option<[f64; MOST]>),
-    ) {
-        let blocks = self.layout.place(destinations, members, size.is_none());
+    fn place(&mut self, members: &[u32], (nodes, end, size): (usize, usize, Option<[f64; MOST]>)) {
+        let blocks = self.layout.place(members, size.is_none());
         if !members.is_empty() {
             self.classes.push(Class { nodes, end, size, blocks, leaves: Vec::new() });
         }

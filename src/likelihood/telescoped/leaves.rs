@@ -5,9 +5,8 @@
 //! whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left out is less than
 //! 1e-14 of the whole.
 
-use crate::likelihood::layout::Layout;
 use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::{AXES, Ball, Ellipsoid};
+use crate::math::mixture::{AXES, Ball, Ellipsoid, Places};
 use crate::math::order::order;
 use crate::model::destination::Destinations;
 use std::ops::Range;
@@ -27,7 +26,7 @@ pub struct Leaf {
     blocks: Range<usize>,
     /// The least and the largest coordinate in each axis.
     edges: [(f64, f64); AXES],
-    /// `log2` of the sum of their priors.
+    /// `log2` of the sum of their prior weights.
     log_prior: f64,
 }
 
@@ -40,7 +39,8 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
     let (before, mut places) = (members.to_vec(), vec![0u64; members.len()]);
     for axis in 0..d {
-        let center = |i: u32| destinations.center(i as usize)[axis];
+        let own = destinations.coordinates()[axis].as_flattened();
+        let center = |i: u32| own.get(i as usize).copied().unwrap_or_default();
         let (low, high) = edges(before.iter().map(|&i| center(i)));
         for (place, &i) in places.iter_mut().zip(&before) {
             let share = ((center(i) - low) / (high - low) * 65_535.0) as u64;
@@ -51,16 +51,18 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     members.iter_mut().zip(order).for_each(|(member, i)| *member = before[i as usize]);
 }
 
-/// The leaves of destinations that stand in these blocks; none where they are few.
-pub fn leaves(layout: &Layout, all: &Range<usize>, priors: &[Block]) -> Vec<Leaf> {
+/// The leaves of destinations that stand in these blocks, with their places and prior weights; none where they are few.
+pub fn leaves(places: &Places<'_>, all: &Range<usize>, priors: &[Block]) -> Vec<Leaf> {
+    fn part<'a>(list: &'a [Block], blocks: &Range<usize>) -> &'a [f64] {
+        list.get(blocks.clone()).unwrap_or_default().as_flattened()
+    }
     let leaf = |start: usize| {
-        let blocks = start..all.end.min(start + BLOCKS);
-        let coordinates = layout.places(&blocks, [0.0; AXES]).coordinates;
-        let log_prior = priors[blocks.clone()].as_flattened().iter().sum::<f64>().log2();
-        let edges = coordinates.map(|list| edges(list.as_flattened().iter().copied()));
-        Leaf { blocks, edges, log_prior }
+        let blocks = start..all.len().min(start + BLOCKS);
+        let log_prior = part(priors, &blocks).iter().sum::<f64>().log2();
+        let edges = places.coordinates.map(|list| edges(part(list, &blocks).iter().copied()));
+        Leaf { blocks: all.start + blocks.start..all.start + blocks.end, edges, log_prior }
     };
-    if all.len() * WIDTH < MANY { Vec::new() } else { all.clone().step_by(BLOCKS).map(leaf).collect() }
+    if all.len() * WIDTH < MANY { Vec::new() } else { (0..all.len()).step_by(BLOCKS).map(leaf).collect() }
 }
 
 /// The largest exponent of a term in a leaf, where axes are not correlated; its factor does not count.

@@ -77,7 +77,8 @@ pub struct Telescoped {
     shift: f64,
     /// The same as the probabilities, once they were told, suggest it for the next observation.
     next_shift: f64,
-    weights: Vec<Block>,
+    /// Room for the weights where destinations stand in another order than their own.
+    aside: Vec<Block>,
     node_weights: Vec<Block>,
     work: Work,
 }
@@ -127,7 +128,7 @@ impl Telescoped {
         });
         Self {
             candidates: candidates.collect(),
-            weights: vec![[0.0; WIDTH]; classes.priors.len()],
+            aside: Vec::new(),
             classes,
             elapsed: 0.0,
             observations: 1,
@@ -282,38 +283,23 @@ impl Telescoped {
         if self.is_separable() && !self.classes.separable {
             return self.couple(destinations, plan);
         }
-        self.weights.clear();
-        self.weights.resize(self.classes.priors.len(), [0.0; WIDTH]);
         for candidate in &mut self.candidates {
             candidate.tables = Tables::default();
         }
     }
 
     /// Liang (3) and (6): the probabilities of the destinations, in their order, and that of none of them, whose prior is
-    /// `none`. None where there is no likelihood that is a number above zero.
-    pub fn probabilities(&mut self, none: f64, into: &mut Vec<f64>) -> Option<f64> {
+    /// `none`. None where the priors stand: at the first observation, and where there is no likelihood that is a number above
+    /// zero. `destinations` are those that the movement began with or was last told.
+    pub fn probabilities(&mut self, destinations: &Destinations, none: f64, into: &mut Vec<f64>) -> Option<f64> {
         if self.observations < 2 {
-            self.classes.layout.scatter(&self.classes.priors, into);
-            into.iter_mut().for_each(|p| *p *= 1.0 - none);
-            return Some(none);
-        }
-        let mut total = self.weigh();
-        if !IN_RANGE.contains(&total) {
-            let mut logs = std::mem::take(&mut self.weights);
-            self.log2_sums(&mut logs);
-            let weighed = logs.as_flattened().iter().zip(self.classes.priors.as_flattened());
-            let top = weighed.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
-            let top = top.fold(f64::NEG_INFINITY, f64::max);
-            self.weights = logs;
-            if !top.is_finite() {
-                return None;
-            }
-            self.shift = top.round();
-            total = self.weigh();
-        }
-        if !(total > 0.0 && total.is_finite()) {
             return None;
         }
+        let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
+        let total = self.total(destinations, &classes, classes.layout.room(&mut aside, into));
+        classes.layout.settle(&aside, into);
+        self.aside = aside;
+        let total = total?;
         // against it "none", whose ratio of densities is one, under the same shift
         let (scale, none) = if none > 0.0 {
             let level = (none / (1.0 - none)).log2() + self.log2_level();
@@ -322,21 +308,42 @@ impl Telescoped {
         } else {
             (1.0, 0.0)
         };
-        let (scale, least) = (scale / total, LEAST * total);
-        self.classes.layout.scatter(&self.weights, into);
-        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
         let beyond = total.log2().round();
         self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
+        // the priors that were weighed need not sum to one
+        let total = total * classes.total;
+        let (scale, least) = (scale / total, LEAST * total);
+        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
         Some(none)
     }
 
-    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order.
-    pub fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
-        let mut logs = vec![[0.0; WIDTH]; self.weights.len()];
-        if self.observations > 1 {
-            self.log2_sums(&mut logs);
+    /// Writes the weights, and returns what they would sum to if the priors summed to one.
+    fn total(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
+        let mut total = self.weigh(destinations, classes, weights) / classes.total;
+        if !IN_RANGE.contains(&total) {
+            self.log2_sums(destinations, classes, weights);
+            let weighed = weights.as_flattened().iter().zip(classes.priors(destinations).as_flattened());
+            let top = weighed.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
+            let top = top.fold(f64::NEG_INFINITY, f64::max) - classes.total.log2();
+            if !top.is_finite() {
+                return None;
+            }
+            self.shift = top.round();
+            total = self.weigh(destinations, classes, weights) / classes.total;
         }
-        self.classes.layout.scatter(&logs, into);
+        (total > 0.0 && total.is_finite()).then_some(total)
+    }
+
+    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order; `destinations` as in [`Telescoped::probabilities`].
+    pub fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
+        let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
+        let logs = classes.layout.room(&mut aside, into);
+        logs.fill([0.0; WIDTH]);
+        if self.observations > 1 {
+            self.log2_sums(destinations, &classes, logs);
+        }
+        classes.layout.settle(&aside, into);
+        self.aside = aside;
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         for log in into {
             let whole = *log * std::f64::consts::LN_2 + evidence;
@@ -358,30 +365,28 @@ impl Telescoped {
         (candidate.log_evidence() - first) * std::f64::consts::LOG2_E
     }
 
-    fn weigh(&mut self) -> f64 {
-        let classes = Arc::clone(&self.classes);
+    fn weigh(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> f64 {
         let origin = self.candidates.first().map_or([0.0; 3], Candidate::position);
         let mut total = 0.0;
         let mut seen = None;
         for class in &classes.classes {
             if seen != Some((class.nodes, class.end)) {
-                self.see(&classes, class);
+                self.see(classes, class);
                 seen = Some((class.nodes, class.end));
             }
-            total += self.work.weigh(&classes, class, origin, self.shift, &mut self.weights);
+            total += self.work.weigh(destinations, classes, class, origin, self.shift, weights);
         }
         total
     }
 
-    fn log2_sums(&mut self, logs: &mut [Block]) {
-        let classes = Arc::clone(&self.classes);
+    fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, logs: &mut [Block]) {
         let mut seen = None;
         for class in &classes.classes {
             if seen != Some((class.nodes, class.end)) {
-                self.see(&classes, class);
+                self.see(classes, class);
                 seen = Some((class.nodes, class.end));
             }
-            self.work.log2_sums(&classes, class, logs);
+            self.work.log2_sums(destinations, classes, class, logs);
         }
     }
 

@@ -13,6 +13,7 @@ use super::leaves::Bounds;
 use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
+use crate::model::destination::Destinations;
 use std::ops::Range;
 
 /// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
@@ -135,6 +136,7 @@ impl Work {
     #[inline(never)]
     pub fn weigh(
         &mut self,
+        destinations: &Destinations,
         classes: &Classes,
         class: &Class,
         origin: [f64; AXES],
@@ -159,8 +161,8 @@ impl Work {
             weights[class.blocks.clone()].fill(ZERO);
         }
         let mut part = |blocks: &Range<usize>| {
-            let places = classes.layout.places(blocks, origin);
-            let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
+            let places = classes.layout.places(destinations, blocks, origin);
+            let (priors, weights) = (classes.priors_in(destinations, blocks), &mut weights[blocks.clone()]);
             match class.size {
                 None => weigh_in(d, owns, &places, shift, priors, weights),
                 Some(_) if round => weigh_in(d, balls, &places, shift, priors, weights),
@@ -172,8 +174,8 @@ impl Work {
 
     /// Writes `log2` of the sums of a class, whatever their size.
     #[inline(never)]
-    pub fn log2_sums(&mut self, classes: &Classes, class: &Class, logs: &mut [Block]) {
-        let places = classes.layout.places(&class.blocks, [0.0; AXES]);
+    pub fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, class: &Class, logs: &mut [Block]) {
+        let places = classes.layout.places(destinations, &class.blocks, [0.0; AXES]);
         let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
         match class.size {
             None => {

@@ -41,9 +41,9 @@ impl Pointing {
         let (mut mean, mut near, mut total) = (0.0, 0.0, 0.0);
         for &(i, share) in shares {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
-            let weights = pairs.weights(center, covariance);
+            let weights = pairs.weights(&center, covariance);
             mean += share * pairs.pairs.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
-            near += share * entry.nearness(&minus(&vector(center), &position), covariance, course.dimensions());
+            near += share * entry.nearness(&minus(&vector(&center), &position), covariance, course.dimensions());
             total += share;
         }
         Some(entry.at(mean / total, near / total, course.elapsed))
@@ -56,7 +56,7 @@ impl Pointing {
         let mut nodes = Vec::with_capacity(pairs.pairs.len());
         nodes.extend(pairs.pairs.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)));
         for &(i, share) in shares {
-            let weights = pairs.weights(destinations.center(i), &destinations.kind(i).covariance);
+            let weights = pairs.weights(&destinations.center(i), &destinations.kind(i).covariance);
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
         }
         Arrival::from_nodes(&nodes)

@@ -40,8 +40,8 @@ impl Pointing {
                 conditioned.clear();
                 conditioned.extend(views.iter().map(|view| view.conditioned(covariance)));
             }
-            let weights = nodes.weights(destinations.center(i), covariance);
-            let offset = minus(&vector(destinations.center(i)), &self.course().position());
+            let weights = nodes.weights(&destinations.center(i), covariance);
+            let offset = minus(&vector(&destinations.center(i)), &self.course().position());
             for (((pair, view), known), weight) in nodes.pairs.iter().zip(&views).zip(&conditioned).zip(weights) {
                 let (weight, Some((gain, covariance))) = (share * weight, known) else { continue };
                 if weight <= 0.0 {

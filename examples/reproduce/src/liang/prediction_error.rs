@@ -19,7 +19,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let noise = scenario.observation.noise().clone();
     let observation = DMatrix::from_fn(noise.nrows(), s, |i, j| f64::from(u8::from(i == j)));
     let extent = scenario.destinations.kinds()[0].covariance.clone();
-    let end = |i: usize| DVector::from_column_slice(scenario.destinations.mean(i));
+    let end = |i: usize| DVector::from_vec(scenario.destinations.mean(i));
     let start_time = movement.observations[0].0;
     let mut state = first.clone();
     let mut bridged: Vec<Vec<Gaussian>> =
