@@ -95,22 +95,17 @@ impl Candidate {
             Source::Separable { first, now } => {
                 let Some(axes) = &end.axes else { return };
                 to_now.fill_axes(model, now, number, axes, nodes, passed);
-                let mut foreseen = *first;
-                if nodes.from_now {
-                    foreseen.foresee(first, model, elapsed);
+                let mut foreseen;
+                let (start, start_tables) = if nodes.from_now {
+                    foreseen = *first;
+                    foreseen.foresee(model, elapsed);
+                    (&foreseen, &to_now.axes)
                 } else {
                     to_start.fill_axes(model, first, number, axes, nodes, 0.0);
-                }
-                let start_tables = if nodes.from_now { &to_now.axes } else { &to_start.axes };
-                let sight = Sight {
-                    now,
-                    start: &foreseen,
-                    tables: &to_now.axes,
-                    start_tables,
-                    weights,
-                    weight: self.weight,
-                    lead,
+                    (first, &to_start.axes)
                 };
+                let sight =
+                    Sight { now, start, tables: &to_now.axes, start_tables, weights, weight: self.weight, lead };
                 work.see(&sight, axes);
             }
             Source::Coupled(coupled) => {

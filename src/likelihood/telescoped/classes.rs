@@ -35,10 +35,12 @@ impl Nodes {
     /// The weights in blocks, zero for the nodes that have passed at `elapsed`.
     pub fn weights_ahead(&self, elapsed: f64, into: &mut Vec<Block>) {
         into.clear();
-        let ahead = |time: f64, weight: f64| if self.from_now || time - elapsed > 0.0 { weight } else { 0.0 };
-        for (times, weights) in self.times.chunks(WIDTH).zip(self.weights.chunks(WIDTH)) {
-            let of = |lane: usize| Some(ahead(*times.get(lane)?, *weights.get(lane)?));
-            into.push(std::array::from_fn(|lane| of(lane).unwrap_or(0.0)));
+        into.resize(self.times.len().div_ceil(WIDTH), [0.0; WIDTH]);
+        let places = into.as_flattened_mut().iter_mut();
+        for ((place, time), weight) in places.zip(&self.times).zip(&self.weights) {
+            if self.from_now || time - elapsed > 0.0 {
+                *place = *weight;
+            }
         }
     }
 }
@@ -74,6 +76,9 @@ impl End {
                     }
                 }
             }
+        }
+        for k in 0..d {
+            axes[k].alike = axes[k].length == axes[0].length && axes[k].covariance == axes[0].covariance;
         }
         let mut covariance = covariance.clone();
         for i in 0..d {

@@ -84,6 +84,13 @@ impl AxisFilter {
         self.square();
     }
 
+    /// The step, and the correction of the covariance where something is observed with this variance.
+    fn advance(&mut self, step: &AxisTransition, variance: Option<f64>) -> Option<Correction> {
+        self.predict_mean(step);
+        self.predict_covariance(step);
+        variance.map(|variance| self.correct_covariance(variance))
+    }
+
     fn correct_covariance(&mut self, variance: f64) -> Correction {
         let s = self.states;
         let (by_row, spread) = condition(&mut self.root, 2 * s, s, variance);
@@ -98,13 +105,34 @@ impl AxisFilter {
     pub fn square(&mut self) {
         let s = self.states;
         for i in 0..s {
-            for j in 0..=i {
+            for j in 0..i + 1 {
                 let mut entry = 0.0;
                 for q in 0..s + j + 1 {
                     entry += self.root[s + i][q] * self.root[s + j][q];
                 }
                 self.covariance[i][j] = entry;
                 self.covariance[j][i] = entry;
+            }
+        }
+    }
+
+    /// The prediction of mean and covariance alone, for what is not observed any more; the root stays.
+    fn foresee(&mut self, step: &AxisTransition) {
+        self.predict_mean(step);
+        let (s, before) = (self.states, self.covariance);
+        for i in 0..s {
+            let mut moved = [0.0; MOST];
+            for j in 0..s {
+                for m in 0..s {
+                    moved[j] += step.transition[i][m] * before[m][j];
+                }
+            }
+            for j in 0..s {
+                let mut entry = step.noise[i][j];
+                for m in 0..s {
+                    entry += moved[m] * step.transition[j][m];
+                }
+                self.covariance[i][j] = entry;
             }
         }
     }
@@ -151,6 +179,8 @@ pub struct Axes {
     pub filters: [AxisFilter; MOST],
     /// Whether an axis moves as the first one does, offset included.
     pub alike: [bool; MOST],
+    /// Whether an axis has moreover been observed as the first one has, so that all but its mean is the same.
+    pub twins: [bool; MOST],
     /// `ln p(y_2:k | y_1)`.
     pub log_evidence: f64,
 }
@@ -165,70 +195,62 @@ impl Axes {
             // a linear, time-invariant model that is the same over two steps is the same over all
             alike[axis] = [0.37, 1.0].iter().all(|&step| model.axis(axis, step) == model.axis(0, step));
         }
-        Some(Self { dimensions: model.dimensions(), filters, alike, log_evidence: 0.0 })
+        Some(Self { dimensions: model.dimensions(), filters, alike, twins: [false; MOST], log_evidence: 0.0 })
+    }
+
+    /// Finds the twins, once every filter has its root and its covariance.
+    pub fn find_twins(&mut self) {
+        let [first, ..] = self.filters;
+        for (axis, one) in self.filters.iter().enumerate() {
+            let same = one.root == first.root && one.covariance == first.covariance;
+            self.twins[axis] = self.alike[axis] && one.states == first.states && same;
+        }
     }
 
     /// One observation, `step` seconds after the last: positions where observed, and their variances.
     pub fn advance(&mut self, model: &dyn MotionModel, step: f64, position: &[Option<f64>], variance: &[f64; MOST]) {
-        let before = self.filters[0].root;
-        let mut first: Option<(AxisTransition, Option<Correction>)> = None;
+        let Some(transition) = model.axis(0, step) else { return };
         let (mut squares, mut spreads) = (0.0, 1.0);
+        let mut leading = None;
         for axis in 0..self.dimensions {
             let observed = position.get(axis).copied().flatten();
-            let [leading, ..] = self.filters;
-            let filter = &mut self.filters[axis];
-            // an axis that is as the first one in all but its mean takes everything else from there
-            let twin = first.filter(|(_, correction)| {
-                self.alike[axis]
-                    && filter.root == before
-                    && correction.is_some() == observed.is_some()
-                    && variance[axis] == variance[0]
-            });
-            let Some(transition) = twin.map_or_else(|| model.axis(axis, step), |(step, _)| Some(step)) else { return };
-            filter.predict_mean(&transition);
-            let correction = match twin {
-                Some((_, correction)) => {
-                    (filter.root, filter.covariance) = (leading.root, leading.covariance);
-                    correction
-                }
-                None => {
-                    filter.predict_covariance(&transition);
-                    observed.map(|_| filter.correct_covariance(variance[axis]))
-                }
+            let (first, others) = self.filters.split_at_mut(axis.max(1));
+            let correction = if axis == 0 {
+                first[0].advance(&transition, observed.map(|_| variance[0]))
+            } else if self.twins[axis] && observed.is_some() == leading.is_some() && variance[axis] == variance[0] {
+                // all but its mean is there already
+                others[0].predict_mean(&transition);
+                (others[0].root, others[0].covariance) = (first[0].root, first[0].covariance);
+                leading
+            } else {
+                self.twins[axis] = false;
+                let Some(own) = model.axis(axis, step) else { return };
+                others[0].advance(&own, observed.map(|_| variance[axis]))
             };
             if let (Some(y), Some(correction)) = (observed, &correction) {
-                let error = filter.correct_mean(correction, y);
+                let error = self.filters[axis].correct_mean(correction, y);
                 squares += error * error / correction.spread;
                 spreads *= std::f64::consts::TAU * correction.spread;
             }
-            first = first.or(Some((transition, correction)));
+            if axis == 0 {
+                leading = correction;
+            }
         }
         self.log_evidence -= 0.5 * (squares + spreads.ln());
     }
 
-    /// What `first`, the posterior of the first observation, says of the state `elapsed` after it.
-    pub fn foresee(&mut self, first: &Self, model: &dyn MotionModel, elapsed: f64) {
-        *self = *first;
+    /// Turns the posterior of the first observation into what it says of the state `elapsed` after it: means and covariances.
+    pub fn foresee(&mut self, model: &dyn MotionModel, elapsed: f64) {
         let Some(transition) = model.axis(0, elapsed) else { return };
-        self.filters[0].predict_mean(&transition);
-        self.filters[0].predict_covariance(&transition);
+        self.filters[0].foresee(&transition);
         for axis in 1..self.dimensions {
-            if first.shares(axis) {
+            if self.twins[axis] {
                 self.filters[axis].predict_mean(&transition);
-                (self.filters[axis].root, self.filters[axis].covariance) =
-                    (self.filters[0].root, self.filters[0].covariance);
+                self.filters[axis].covariance = self.filters[0].covariance;
             } else if let Some(transition) = model.axis(axis, elapsed) {
-                self.filters[axis].predict_mean(&transition);
-                self.filters[axis].predict_covariance(&transition);
+                self.filters[axis].foresee(&transition);
             }
         }
-    }
-
-    /// Whether an axis can share with the first one all that does not depend on a mean.
-    pub fn shares(&self, axis: usize) -> bool {
-        let (one, first) = (&self.filters[axis], &self.filters[0]);
-        let same = |i: usize| one.covariance[i][..=i] == first.covariance[i][..=i];
-        self.alike[axis] && one.states == first.states && (0..one.states).all(same)
     }
 }
 
@@ -241,13 +263,8 @@ pub struct AxisEnd {
     pub mean: [f64; MOST],
     /// Their covariance; that of the position is zero.
     pub covariance: [[f64; MOST]; MOST],
-}
-
-impl AxisEnd {
-    /// Whether it differs from another in the means alone.
-    pub fn is_alike(&self, other: &Self) -> bool {
-        self.length == other.length && self.covariance == other.covariance
-    }
+    /// Whether it differs from that of the first axis in the means alone.
+    pub alike: bool,
 }
 
 /// Transitions of one axis over the times to go of all nodes, eight nodes in a block.

@@ -96,7 +96,7 @@ impl Work {
         let (now, start) = (sight.now, sight.start);
         let mut alike = [true; MOST];
         for k in 1..now.dimensions {
-            alike[k] = now.shares(k) && start.shares(k) && axes[k].is_alike(&axes[0]);
+            alike[k] = now.twins[k] && start.twins[k] && axes[k].alike;
             self.round &= alike[k];
         }
         let [mut first, mut first_start, mut own, mut own_start] = [Spread::empty(); 4];

@@ -89,5 +89,7 @@ pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Op
         }
     }
     now.log_evidence = *filter.log_evidence.first()?;
+    now.find_twins();
+    start.find_twins();
     Some((start, now))
 }
