@@ -57,8 +57,7 @@ impl Axis {
         ];
     }
 
-    fn predict(&mut self, step: f64, noise: f64) {
-        self.position += step * self.velocity;
+    fn predict_root(&mut self, step: f64, noise: f64) {
         let velocity = self.root[3];
         for q in 0..4 {
             self.root[2][q] += step * velocity[q];
@@ -74,17 +73,14 @@ impl Axis {
         for (i, own) in own.iter().enumerate() {
             (self.root[2 + i][2], self.root[2 + i][3]) = (own[0], own[1]);
         }
-        self.square();
     }
 
-    fn correct(&mut self, observed: f64, variance: f64) {
+    fn correct_mean(&mut self, gain: &[f64; 4], observed: f64) {
         let error = observed - self.position;
-        let (gain, _) = condition(&mut self.root, 4, 2, variance);
         self.first[0] += gain[0] * error;
         self.first[1] += gain[1] * error;
         self.position += gain[2] * error;
         self.velocity += gain[3] * error;
-        self.square();
     }
 }
 
@@ -100,6 +96,8 @@ pub struct Course {
     pub observations: u64,
     /// The axes; those beyond the dimensions stay at zero.
     pub axes: [Axis; 3],
+    /// Whether an axis has the root of the first one: it has begun and been observed alike.
+    twins: [bool; 3],
 }
 
 impl Course {
@@ -112,7 +110,8 @@ impl Course {
             start[j] = y;
             axes[j] = Axis::begin(y, variance, parameters.first_speed[j].powi(2));
         }
-        Self { dimensions: position.len().min(3), start, elapsed: 0.0, observations: 1, axes }
+        let twins = axes.map(|axis| axis.root == axes[0].root);
+        Self { dimensions: position.len().min(3), start, elapsed: 0.0, observations: 1, axes, twins }
     }
 
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
@@ -120,10 +119,27 @@ impl Course {
         let step = elapsed - self.elapsed;
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
-        for (axis, (observed, &variance)) in self.axes.iter_mut().zip(position.iter().zip(variances)) {
-            axis.predict(step.max(SHORTEST_STEP), noise);
-            if let Some(observed) = observed {
-                axis.correct(*observed, variance);
+        let (step, mut leading) = (step.max(SHORTEST_STEP), None);
+        for (k, (observed, &variance)) in position.iter().zip(variances).enumerate().take(self.dimensions) {
+            let [Axis { root, covariance, .. }, ..] = self.axes;
+            let axis = &mut self.axes[k];
+            axis.position += step * axis.velocity;
+            let twin = k > 0 && self.twins[k] && observed.is_some() == leading.is_some() && variance == variances[0];
+            let gain = if twin {
+                (axis.root, axis.covariance) = (root, covariance);
+                leading
+            } else {
+                self.twins[k] = k == 0;
+                axis.predict_root(step, noise);
+                let gain = observed.map(|_| condition(&mut axis.root, 4, 2, variance).0);
+                axis.square();
+                gain
+            };
+            if let (Some(gain), Some(observed)) = (&gain, observed) {
+                axis.correct_mean(gain, *observed);
+            }
+            if k == 0 {
+                leading = gain;
             }
         }
         self.elapsed = elapsed;
@@ -188,6 +204,7 @@ impl Course {
             *axis = Axis::of(root, [n[2], n[3]], [n[0], n[1]]);
         }
         Ok(Self {
+            twins: axes.map(|axis| axis.root == axes[0].root),
             dimensions,
             start: vector(start),
             elapsed: fields.required("elapsed")?.exact()?,

@@ -17,7 +17,7 @@ use crate::math::mixture::{Density, Ellipsoid, HALF_LOG2_E};
 use nalgebra::DMatrix;
 
 /// One (scale, time to go).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Pair {
     /// The time to go `R`.
     pub time: f64,
@@ -34,6 +34,7 @@ pub struct Nodes {
     dimensions: usize,
     position: Vector,
     times: Vec<f64>,
+    log_times: Vec<f64>,
     weights: Vec<f64>,
     /// The pairs, scale by scale.
     pub pairs: Vec<Pair>,
@@ -44,8 +45,10 @@ impl Nodes {
     #[must_use]
     pub fn new(parameters: &Parameters, course: &Course) -> Self {
         let times = parameters.time_to_go.nodes();
-        let (weights, pairs) = (Vec::new(), Vec::with_capacity(parameters.scales.len() * times.len()));
-        let mut nodes = Self { dimensions: course.dimensions(), position: course.position(), times, weights, pairs };
+        let log_times = times.iter().map(|time| time.ln()).collect();
+        let (weights, pairs) = (Vec::new(), vec![Pair::default(); parameters.scales.len() * times.len()]);
+        let (dimensions, position) = (course.dimensions(), course.position());
+        let mut nodes = Self { dimensions, position, times, log_times, weights, pairs };
         nodes.refresh(parameters, course);
         nodes
     }
@@ -54,20 +57,20 @@ impl Nodes {
     pub fn refresh(&mut self, parameters: &Parameters, course: &Course) {
         let (velocity, speed) = (course.velocity(), course.speed());
         self.position = course.position();
-        parameters.time_to_go.weights(&self.times, speed, &mut self.weights);
+        parameters.time_to_go.weights(&self.log_times, speed, &mut self.weights);
         let each = 1.0 / parameters.scales.len() as f64;
         let (along, across) = (parameters.along_noise.powi(2), parameters.across_noise.powi(2));
-        self.pairs.clear();
+        let mut pairs = self.pairs.iter_mut();
         for scale in &parameters.scales {
             let noise = [scale * scale + across * speed * speed, along - across];
-            for (&time, weight) in self.times.iter().zip(&self.weights) {
+            for ((&time, weight), pair) in self.times.iter().zip(&self.weights).zip(pairs.by_ref()) {
                 let mut covariance = spread(&noise, &velocity, time * time * time / 3.0);
                 for (axis, place) in course.axes.iter().zip(&[0, 2, 5]) {
                     let [pp, pv, vv] = axis.covariance;
                     covariance[*place] += pp + 2.0 * time * pv + time * time * vv;
                 }
                 let mean = [velocity[0] * time, velocity[1] * time, velocity[2] * time];
-                self.pairs.push(Pair { time, noise, weight: weight * each, mean, covariance });
+                *pair = Pair { time, noise, weight: weight * each, mean, covariance };
             }
         }
     }
@@ -110,33 +113,33 @@ impl Nodes {
     /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
     pub fn ellipsoids(&self, own: &Symmetric, into: &mut Vec<Ellipsoid>) {
         let normaliser = normaliser(self.dimensions);
-        into.clear();
-        for pair in &self.pairs {
+        into.resize(self.pairs.len(), Ellipsoid::default());
+        for (term, pair) in into.iter_mut().zip(&self.pairs) {
             let (precision, determinant) = inverse(&sum(&pair.covariance, own), self.dimensions);
             let [xx, xy, yy, xz, yz, zz] = precision;
             let (half, whole) = (-HALF_LOG2_E, -2.0 * HALF_LOG2_E);
-            into.push(Ellipsoid {
+            *term = Ellipsoid {
                 center: self.end(pair),
                 curvature: [[half * xx, whole * xy, whole * xz], [0.0, half * yy, whole * yz], [0.0, 0.0, half * zz]],
                 slope: [0.0; 3],
                 constant: 0.0,
                 factor: pair.weight * normaliser / determinant.sqrt(),
-            });
+            };
         }
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have each its own variances.
     pub fn densities(&self, into: &mut Vec<Density>) {
         let normaliser = normaliser(self.dimensions);
-        into.clear();
-        for pair in &self.pairs {
+        into.resize(self.pairs.len(), Density::default());
+        for (term, pair) in into.iter_mut().zip(&self.pairs) {
             let [xx, xy, yy, xz, yz, zz] = pair.covariance;
-            into.push(Density {
+            *term = Density {
                 mean: self.end(pair),
                 variance: [xx, yy, zz],
                 covariance: [xy, xz, yz],
                 factor: pair.weight * normaliser,
-            });
+            };
         }
     }
 
@@ -149,7 +152,12 @@ impl Nodes {
 
 /// `(2 pi)^(-d/2)`.
 fn normaliser(dimensions: usize) -> f64 {
-    (-0.5 * dimensions as f64 * LN_2_PI).exp()
+    const ONE: f64 = 0.398_942_280_401_432_7;
+    match dimensions {
+        1 => ONE,
+        2 => ONE * ONE,
+        _ => ONE * ONE * ONE,
+    }
 }
 
 fn sum(a: &Symmetric, b: &Symmetric) -> Symmetric {
@@ -179,7 +187,8 @@ pub fn inverse(matrix: &Symmetric, dimensions: usize) -> (Symmetric, f64) {
         1 => ([1.0 / xx, 0.0, 0.0, 0.0, 0.0, 0.0], xx),
         2 => {
             let determinant = xx * yy - xy * xy;
-            ([yy / determinant, -xy / determinant, xx / determinant, 0.0, 0.0, 0.0], determinant)
+            let over = 1.0 / determinant;
+            ([yy * over, -xy * over, xx * over, 0.0, 0.0, 0.0], determinant)
         }
         _ => {
             let minors = [

@@ -3,6 +3,8 @@
 use super::entry_time::EntryTime;
 use super::{Vector, vector};
 use crate::error::{Code, Error, Result};
+use crate::math::lanes::{Lanes, Shift, WIDTH};
+use crate::math::mixture::HALF_LOG2_E;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
@@ -307,15 +309,28 @@ impl TimeToGo {
         (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
     }
 
-    /// The nodes' weights at a speed; they sum to one.
-    pub fn weights(&self, nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
+    /// The weights at a speed of the nodes with these logarithms; they sum to one.
+    pub fn weights(&self, log_nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
         let middle = self.median.ln() + self.speed_exponent * ((speed + 50.0) / 1000.0).ln();
         into.clear();
-        into.extend(nodes.iter().map(|node| -0.5 * ((node.ln() - middle) / self.spread).powi(2)));
-        let top = into.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        into.iter_mut().for_each(|weight| *weight = (*weight - top).exp());
-        let total: f64 = into.iter().sum();
-        into.iter_mut().for_each(|weight| *weight /= total);
+        // eight exponentials at a time; what fills the last block up is next to nothing
+        into.resize(log_nodes.len().next_multiple_of(WIDTH), f64::MIN);
+        let mut top = f64::NEG_INFINITY;
+        for (exponent, log) in into.iter_mut().zip(log_nodes) {
+            let apart = (log - middle) / self.spread;
+            *exponent = -HALF_LOG2_E * apart * apart;
+            top = top.max(*exponent);
+        }
+        let shift = Shift::by(top);
+        let mut total = Lanes::splat(0.0);
+        for block in into.as_chunks_mut().0 {
+            let weights = Lanes::load(block).exp2(&shift);
+            weights.store(block);
+            total = total + weights;
+        }
+        let over = 1.0 / total.sum();
+        into.truncate(log_nodes.len());
+        into.iter_mut().for_each(|weight| *weight *= over);
     }
 }
 

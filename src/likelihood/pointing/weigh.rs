@@ -81,7 +81,8 @@ impl Work {
             return None;
         }
         targets.layout.settle(aside, into);
-        into.iter_mut().for_each(|weight| *weight /= total);
+        let over = 1.0 / total;
+        into.iter_mut().for_each(|weight| *weight *= over);
         Some(total.ln() + shift * std::f64::consts::LN_2)
     }
 }

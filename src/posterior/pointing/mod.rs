@@ -24,9 +24,9 @@ impl Posterior {
         };
         let priors = destinations.priors();
         let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
+        let (kept, even) = ((1.0 - self.none) * (1.0 - uniform), (1.0 - self.none) * (uniform / possible as f64));
         for (value, prior) in self.probabilities.iter_mut().zip(priors) {
-            let even = if *prior > 0.0 { uniform / possible as f64 } else { 0.0 };
-            *value = (1.0 - self.none) * ((1.0 - uniform) * *value + even);
+            *value = kept * *value + if *prior > 0.0 { even } else { 0.0 };
         }
     }
 }
