@@ -53,13 +53,11 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
 
 /// The leaves of destinations that stand in these blocks, with their places and prior weights; none where they are few.
 pub fn leaves(places: &Places<'_>, all: &Range<usize>, priors: &[Block]) -> Vec<Leaf> {
-    fn part<'a>(list: &'a [Block], blocks: &Range<usize>) -> &'a [f64] {
-        list.get(blocks.clone()).unwrap_or_default().as_flattened()
-    }
     let leaf = |start: usize| {
         let blocks = start..all.len().min(start + BLOCKS);
-        let log_prior = part(priors, &blocks).iter().sum::<f64>().log2();
-        let edges = places.coordinates.map(|list| edges(part(list, &blocks).iter().copied()));
+        let log_prior = priors[blocks.clone()].as_flattened().iter().sum::<f64>().log2();
+        let part = places.coordinates.map(|list| list.get(blocks.clone()).unwrap_or_default().as_flattened());
+        let edges = part.map(|numbers| edges(numbers.iter().copied()));
         Leaf { blocks: all.start + blocks.start..all.start + blocks.end, edges, log_prior }
     };
     if all.len() * WIDTH < MANY { Vec::new() } else { (0..all.len()).step_by(BLOCKS).map(leaf).collect() }
