@@ -302,3 +302,30 @@ fn what_can_no_longer_be_reached_in_time_has_no_likelihood() {
     assert!(left[0].is_finite());
     assert_eq!(predictor.probabilities()[20], 1.0);
 }
+
+/// Whatever the priors sum to, one destination that has it all has a probability of one, and not a bit more.
+#[test]
+fn no_probability_is_above_one() {
+    for k in 1..400 {
+        let scenario = json!({
+            "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 90 },
+            "observation": { "noise": 1.5 },
+            "arrival": { "type": "uniform", "from": 0.9, "to": 1.1 },
+            "destinations": [
+                { "id": "there", "center": [3000, 50], "size": 40, "prior": 0.37 * f64::from(k) },
+                { "id": "behind", "center": [-9000, 50], "size": 40 },
+            ],
+        });
+        let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap()).unwrap();
+        for step in 0..4 {
+            let t = 0.1 * f64::from(step);
+            predictor.observe(t, &[3000.0 * t, 50.0 * t]).unwrap();
+        }
+        let [there, behind] = predictor.probabilities() else { panic!() };
+        assert!(
+            *there <= 1.0 && *there > 1.0 - 1e-15 && *behind == 0.0,
+            "{there} with the prior {}",
+            0.37 * f64::from(k)
+        );
+    }
+}

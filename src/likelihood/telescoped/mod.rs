@@ -296,10 +296,12 @@ impl Telescoped {
             return None;
         }
         let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
-        let total = self.total(destinations, &classes, classes.layout.room(&mut aside, into));
+        let sum = self.sum(destinations, &classes, classes.layout.room(&mut aside, into));
         classes.layout.settle(&aside, into);
         self.aside = aside;
-        let total = total?;
+        let sum = sum?;
+        // what it would be if the priors that were weighed summed to one
+        let total = sum / classes.total;
         // against it "none", whose ratio of densities is one, under the same shift
         let (scale, none) = if none > 0.0 {
             let level = (none / (1.0 - none)).log2() + self.log2_level();
@@ -310,17 +312,15 @@ impl Telescoped {
         };
         let beyond = total.log2().round();
         self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
-        // the priors that were weighed need not sum to one
-        let total = total * classes.total;
-        let (scale, least) = (scale / total, LEAST * total);
+        let (scale, least) = (scale / sum, LEAST * sum);
         into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
         Some(none)
     }
 
-    /// Writes the weights, and returns what they would sum to if the priors summed to one.
-    fn total(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
-        let mut total = self.weigh(destinations, classes, weights) / classes.total;
-        if !IN_RANGE.contains(&total) {
+    /// Writes the weights, and returns their sum.
+    fn sum(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
+        let mut sum = self.weigh(destinations, classes, weights);
+        if !IN_RANGE.contains(&(sum / classes.total)) {
             self.log2_sums(destinations, classes, weights);
             let weighed = weights.as_flattened().iter().zip(classes.priors(destinations).as_flattened());
             let top = weighed.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
@@ -329,9 +329,9 @@ impl Telescoped {
                 return None;
             }
             self.shift = top.round();
-            total = self.weigh(destinations, classes, weights) / classes.total;
+            sum = self.weigh(destinations, classes, weights);
         }
-        (total > 0.0 && total.is_finite()).then_some(total)
+        (sum > 0.0 && sum.is_finite()).then_some(sum)
     }
 
     /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order; `destinations` as in [`Telescoped::probabilities`].
