@@ -254,6 +254,14 @@ fn run(seed: u64) -> bool {
     true
 }
 
+/// What once broke one: log likelihoods that were infinite.
+#[test]
+fn what_once_broke_a_predictor_does_not() {
+    for seed in [26_643_139_591] {
+        assert!(run(seed));
+    }
+}
+
 #[test]
 fn nothing_breaks_a_predictor() {
     let setting = |name: &str| std::env::var(name).ok().map(|text| text.parse::<u64>().expect("a whole number"));

@@ -348,7 +348,7 @@ impl Telescoped {
         for log in into {
             let whole = *log * std::f64::consts::LN_2 + evidence;
             // beyond what numbers can tell, nothing is known
-            *log = if whole.is_nan() { f64::NEG_INFINITY } else { whole };
+            *log = if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY };
         }
     }
 
