@@ -8,6 +8,9 @@ use crate::math::mixture::{AXES, Places};
 use crate::model::destination::Destinations;
 use std::ops::Range;
 
+/// Fewer destinations of one class than this are sooner evaluated among others, each with its own variances.
+pub const FEW: usize = 8;
+
 /// In [`Layout::order`], a place that only fills a block up.
 const NOBODY: u32 = u32::MAX;
 

@@ -313,7 +313,7 @@ impl TimeToGo {
     pub fn weights(&self, log_nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
         let middle = self.median.ln() + self.speed_exponent * ((speed + 50.0) / 1000.0).ln();
         into.clear();
-        // eight exponentials at a time; what fills the last block up is next to nothing
+        // four exponentials at a time; what fills the last block up is next to nothing
         into.resize(log_nodes.len().next_multiple_of(WIDTH), f64::MIN);
         let mut top = f64::NEG_INFINITY;
         for (exponent, log) in into.iter_mut().zip(log_nodes) {

@@ -3,7 +3,7 @@
 use super::evidence::{angular_variance, log_near, log_start};
 use super::parameters::Parameters;
 use super::{Symmetric, Vector, dot, minus, vector};
-use crate::likelihood::layout::Layout;
+use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::pointing::endpoint::symmetric;
 use crate::math::lanes::{Block, WIDTH};
 use crate::model::destination::Destinations;
@@ -57,7 +57,7 @@ impl Targets {
         let mut pool = Vec::new();
         let several = members.iter().filter(|members| !members.is_empty()).count() > 1;
         for (kind, members) in destinations.kinds().iter().zip(&members) {
-            if several && members.len() < WIDTH && is_straight(&kind.covariance, d) {
+            if several && members.len() < FEW && is_straight(&kind.covariance, d) {
                 pool.extend(members);
             } else {
                 self.place(members, Some(symmetric(&kind.covariance, d)));

@@ -3,7 +3,7 @@
 use super::IN_RANGE;
 use super::leaves::{Leaf, MANY, arrange, leaves};
 use super::separable::{AxisEnd, MOST};
-use crate::likelihood::layout::Layout;
+use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::plan::Plan;
 use crate::math::lanes::{Block, WIDTH};
 use crate::math::mixture::AXES;
@@ -163,7 +163,7 @@ impl Classes {
             let many = classes.separable && drafts.len() > 1;
             let mut pool = Vec::new();
             for mut draft in drafts {
-                if many && draft.members.len() < WIDTH {
+                if many && draft.members.len() < FEW {
                     pool.extend(draft.members);
                 } else {
                     if classes.separable && draft.members.len() >= MANY {

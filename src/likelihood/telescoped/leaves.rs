@@ -15,7 +15,7 @@ use std::ops::Range;
 pub const MANY: usize = 4096;
 
 /// How many blocks a leaf has.
-const BLOCKS: usize = 8;
+const BLOCKS: usize = 16;
 
 /// All that is left out together lies this many powers of two below the sum.
 const NOTHING: f64 = 47.0;

@@ -1,7 +1,7 @@
 //! Models whose axes do not mix: each axis is a small filter of its own, and its endpoint one scalar Gaussian.
 //!
 //! Where the endpoint names more than the position (a velocity, an acceleration on arrival), the density of those is taken
-//! first and the position is conditioned on them, so what is left is a scalar Gaussian of the position still. Eight arrival
+//! first and the position is conditioned on them, so what is left is a scalar Gaussian of the position still. Four arrival
 //! nodes are worked on at a time. Axes that are alike (one noise, one history of observation noise) share all that does not
 //! depend on a mean.
 
@@ -267,7 +267,7 @@ pub struct AxisEnd {
     pub alike: bool,
 }
 
-/// Transitions of one axis over the times to go of all nodes, eight nodes in a block.
+/// Transitions of one axis over the times to go of all nodes, four nodes in a block.
 #[derive(Clone, Debug, Default)]
 pub struct NodeTable {
     states: usize,
@@ -320,7 +320,7 @@ impl NodeTable {
     }
 }
 
-/// A scalar Gaussian of the endpoint's position for eight nodes, and the density of the rest of the endpoint.
+/// A scalar Gaussian of the endpoint's position for four nodes, and the density of the rest of the endpoint.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
     /// The position's mean.

@@ -20,7 +20,7 @@ use std::ops::Range;
 /// too much, and the [`Ellipsoid`] is taken.
 const MOST_BITS: f64 = 256.0;
 
-/// The endpoint's position for eight nodes, seen from now and from the start, without its own variance.
+/// The endpoint's position for four nodes, seen from now and from the start, without its own variance.
 #[derive(Clone, Copy, Debug)]
 struct EndBlock {
     mean: [Block; AXES],

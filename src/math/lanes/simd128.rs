@@ -8,45 +8,36 @@ use core::arch::wasm32::{
 
 // no loops and no arrays of arrays: at the level for size they would stay in memory
 #[derive(Clone, Copy, Debug)]
-pub struct Vector(v128, v128, v128, v128);
+pub struct Vector(v128, v128);
 
 impl Vector {
     #[inline(always)]
     pub fn splat(x: f64) -> Self {
         let both = f64x2_splat(x);
-        Self(both, both, both, both)
+        Self(both, both)
     }
 
     #[inline(always)]
     pub fn load(block: &Block) -> Self {
-        let [a, b, c, d, e, f, g, h] = *block;
-        Self(f64x2(a, b), f64x2(c, d), f64x2(e, f), f64x2(g, h))
+        let [a, b, c, d] = *block;
+        Self(f64x2(a, b), f64x2(c, d))
     }
 
     #[inline(always)]
     pub fn store(self, block: &mut Block) {
         let low = |v| f64x2_extract_lane::<0>(v);
         let high = |v| f64x2_extract_lane::<1>(v);
-        *block = [
-            low(self.0),
-            high(self.0),
-            low(self.1),
-            high(self.1),
-            low(self.2),
-            high(self.2),
-            low(self.3),
-            high(self.3),
-        ];
+        *block = [low(self.0), high(self.0), low(self.1), high(self.1)];
     }
 
     #[inline(always)]
     fn each(self, f: impl Fn(v128) -> v128) -> Self {
-        Self(f(self.0), f(self.1), f(self.2), f(self.3))
+        Self(f(self.0), f(self.1))
     }
 
     #[inline(always)]
     fn both(self, other: Self, f: impl Fn(v128, v128) -> v128) -> Self {
-        Self(f(self.0, other.0), f(self.1, other.1), f(self.2, other.2), f(self.3, other.3))
+        Self(f(self.0, other.0), f(self.1, other.1))
     }
 
     #[inline(always)]
