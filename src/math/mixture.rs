@@ -14,7 +14,7 @@
 mod density;
 mod terms;
 
-pub use density::Density;
+pub use density::{Density, SharedDensity};
 pub use terms::{Ball, Ellipsoid, Own};
 
 use super::lanes::{Block, Lanes, Shift, WIDTH};

@@ -367,6 +367,43 @@ fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
     assert!(worst > 0.0, "compared with itself");
 }
 
+/// The products of what directions are measured with come close to the ends of what numbers can tell.
+#[test]
+fn directions_may_be_as_wide_and_as_narrow_as_numbers_are() {
+    let base = serde_json::to_value(
+        pointer_scenario(
+            &[("a", 300.0), ("b", 420.0)].map(|(id, x)| PointerTarget {
+                id: id.to_owned(),
+                x,
+                y: 90.0,
+                width: 50.0,
+                height: 50.0,
+            }),
+            PointerOptions::default(),
+        )
+        .unwrap()
+        .to_value(),
+    )
+    .unwrap();
+    for (core, wide, size) in [(1e-50, 1e-50, 50.0), (1e-50, 1e50, 50.0), (1e50, 1e50, 50.0), (0.1, 0.5, 1e50)] {
+        let mut scenario = base.clone();
+        scenario["pointing"]["direction"]["core"] = json!(core);
+        scenario["pointing"]["direction"]["wide"] = json!(wide);
+        for i in 0..2 {
+            scenario["destinations"][i]["size"] = json!([size, size]);
+            scenario["destinations"][i]["prior"] = json!(1.0);
+        }
+        let mut predictor = predictor(&scenario);
+        for k in 0..8 {
+            predictor.observe(0.016 * f64::from(k), &[14.0 * f64::from(k), 5.0 * f64::from(k)]).unwrap();
+            let expected = from_log_likelihoods(&mut predictor, &scenario, &[0.0, 0.0]);
+            for (found, expected) in predictor.probabilities().iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-12, "{core:e} {wide:e} {size:e} k {k}: {found:e} {expected:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_movement_beyond_all_numbers_leaves_what_is_believed_at_its_prior() {
     let case = golden("pointing-ring12");

@@ -9,15 +9,17 @@
 //! covariance `S_i` its logarithm is a quadratic in `a_i - x`.
 
 use super::course::Course;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, TimeToGo};
 use super::{Symmetric, Vector, dot, minus, vector};
 use crate::math::gaussian::LN_2_PI;
+use crate::math::lanes::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
-use crate::math::mixture::{Density, Ellipsoid, HALF_LOG2_E};
+use crate::math::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// One (scale, time to go).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// The time to go `R`.
     pub time: f64,
@@ -28,49 +30,84 @@ pub struct Pair {
     covariance: Symmetric,
 }
 
+/// The pairs of one scale with as many times to go as are worked on together.
+#[derive(Clone, Copy, Debug, Default)]
+struct Together {
+    weight: Block,
+    /// Where the movement would end.
+    end: [Block; 3],
+    covariance: Symmetric<Block>,
+}
+
 /// All pairs as they stand after an observation.
 #[derive(Clone, Debug)]
 pub struct Nodes {
     dimensions: usize,
     position: Vector,
+    velocity: Vector,
+    /// How many times to go there are.
+    points: usize,
+    /// The times to go, in whole blocks, the last one filled up.
     times: Vec<f64>,
+    /// Their logarithms over that of the median.
     log_times: Vec<f64>,
+    /// One for each time to go, zero for what fills the last block up.
+    ones: Vec<f64>,
     weights: Vec<f64>,
-    /// The pairs, scale by scale.
-    pub pairs: Vec<Pair>,
+    /// That of each scale, as in [`Pair::noise`].
+    noises: Vec<[f64; 2]>,
+    /// Scale by scale.
+    pairs: Vec<Together>,
 }
 
 impl Nodes {
     /// The pairs after the latest observation.
     #[must_use]
     pub fn new(parameters: &Parameters, course: &Course) -> Self {
-        let times = parameters.time_to_go.nodes();
-        let log_times = times.iter().map(|time| time.ln()).collect();
-        let (weights, pairs) = (Vec::new(), vec![Pair::default(); parameters.scales.len() * times.len()]);
-        let (dimensions, position) = (course.dimensions(), course.position());
-        let mut nodes = Self { dimensions, position, times, log_times, weights, pairs };
+        let TimeToGo { to, points, median, .. } = parameters.time_to_go;
+        let mut times = parameters.time_to_go.nodes();
+        let mut log_times: Vec<f64> = times.iter().map(|time| (time / median).ln()).collect();
+        let mut ones = vec![1.0; points];
+        let length = points.next_multiple_of(WIDTH);
+        times.resize(length, to);
+        log_times.resize(length, 0.0);
+        ones.resize(length, 0.0);
+        let pairs = vec![Together::default(); parameters.scales.len() * length / WIDTH];
+        let (dimensions, position, velocity) = (course.dimensions(), course.position(), course.velocity());
+        let (weights, noises) = (ones.clone(), vec![[0.0; 2]; parameters.scales.len()]);
+        let mut nodes = Self { dimensions, position, velocity, points, times, log_times, ones, weights, noises, pairs };
         nodes.refresh(parameters, course);
         nodes
     }
 
     /// The pairs after one more observation.
     pub fn refresh(&mut self, parameters: &Parameters, course: &Course) {
-        let (velocity, speed) = (course.velocity(), course.speed());
-        self.position = course.position();
-        parameters.time_to_go.weights(&self.log_times, speed, &mut self.weights);
+        let s = Lanes::splat;
+        let speed = course.speed();
+        (self.position, self.velocity) = (course.position(), course.velocity());
+        let [times, log_times, ones] = [&self.times, &self.log_times, &self.ones].map(|list| blocks(list));
+        let weights = self.weights.as_chunks_mut().0;
+        parameters.time_to_go.weights(log_times, ones, speed, weights);
         let each = 1.0 / parameters.scales.len() as f64;
         let (along, across) = (parameters.along_noise.powi(2), parameters.across_noise.powi(2));
         let mut pairs = self.pairs.iter_mut();
-        for scale in &parameters.scales {
-            let noise = [scale * scale + across * speed * speed, along - across];
-            for ((&time, weight), pair) in self.times.iter().zip(&self.weights).zip(pairs.by_ref()) {
-                let mut covariance = spread(&noise, &velocity, time * time * time / 3.0);
-                for (axis, place) in course.axes.iter().zip(&[0, 2, 5]) {
-                    let [pp, pv, vv] = axis.covariance;
-                    covariance[*place] += pp + 2.0 * time * pv + time * time * vv;
-                }
-                let mean = [velocity[0] * time, velocity[1] * time, velocity[2] * time];
-                *pair = Pair { time, noise, weight: weight * each, mean, covariance };
+        for (scale, noise) in parameters.scales.iter().zip(&mut self.noises) {
+            *noise = [scale * scale + across * speed * speed, along - across];
+            for ((times, weights), pairs) in times.iter().zip(&*weights).zip(pairs.by_ref()) {
+                let time = Lanes::load(times);
+                (Lanes::load(weights) * s(each)).store(&mut pairs.weight);
+                let [xx, xy, yy, xz, yz, zz] = spread(noise, &self.velocity, time * time * time * s(1.0 / 3.0));
+                let [a, b, c, d, e, f] = &mut pairs.covariance;
+                (xx + grown(course, 0, time)).store(a);
+                xy.store(b);
+                (yy + grown(course, 1, time)).store(c);
+                xz.store(d);
+                yz.store(e);
+                (zz + grown(course, 2, time)).store(f);
+                let [x, y, z] = &mut pairs.end;
+                (s(self.position[0]) + time * s(self.velocity[0])).store(x);
+                (s(self.position[1]) + time * s(self.velocity[1])).store(y);
+                (s(self.position[2]) + time * s(self.velocity[2])).store(z);
             }
         }
     }
@@ -79,6 +116,27 @@ impl Nodes {
     #[must_use]
     pub const fn dimensions(&self) -> usize {
         self.dimensions
+    }
+
+    /// The pairs, scale by scale.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = Pair> {
+        (0..self.noises.len() * self.points).map(|i| self.pair(i))
+    }
+
+    #[inline(never)]
+    fn pair(&self, i: usize) -> Pair {
+        let (scale, node) = (i / self.points.max(1), i % self.points.max(1));
+        let (block, lane) = (node / WIDTH, node % WIDTH);
+        let Together { weight, covariance, .. } =
+            self.pairs.get(scale * self.times.len() / WIDTH + block).copied().unwrap_or_default();
+        let time = self.times.get(node).copied().unwrap_or_default();
+        Pair {
+            time,
+            noise: self.noises.get(scale).copied().unwrap_or_default(),
+            weight: weight[lane],
+            mean: self.velocity.map(|velocity| velocity * time),
+            covariance: covariance.map(|entry| entry[lane]),
+        }
     }
 
     /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
@@ -92,7 +150,7 @@ impl Nodes {
     pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
         let mut terms = self.log_terms(center, endpoint);
         if share(&mut terms).is_none() {
-            terms.iter_mut().zip(&self.pairs).for_each(|(term, pair)| *term = pair.weight);
+            terms.iter_mut().zip(self.pairs()).for_each(|(term, pair)| *term = pair.weight);
         }
         terms
     }
@@ -101,7 +159,7 @@ impl Nodes {
     fn log_terms(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
         let own = symmetric(endpoint, self.dimensions);
         let offset = minus(&vector(center), &self.position);
-        let each = self.pairs.iter().map(|pair| {
+        let each = self.pairs().map(|pair| {
             let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
             let error = minus(&offset, &pair.mean);
             let square = dot(&error, &times(&precision, &error));
@@ -111,43 +169,77 @@ impl Nodes {
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
-    pub fn ellipsoids(&self, own: &Symmetric, into: &mut Vec<Ellipsoid>) {
-        let normaliser = normaliser(self.dimensions);
-        into.resize(self.pairs.len(), Ellipsoid::default());
-        for (term, pair) in into.iter_mut().zip(&self.pairs) {
-            let (precision, determinant) = inverse(&sum(&pair.covariance, own), self.dimensions);
-            let [xx, xy, yy, xz, yz, zz] = precision;
-            let (half, whole) = (-HALF_LOG2_E, -2.0 * HALF_LOG2_E);
-            *term = Ellipsoid {
-                center: self.end(pair),
-                curvature: [[half * xx, whole * xy, whole * xz], [0.0, half * yy, whole * yz], [0.0, 0.0, half * zz]],
-                slope: [0.0; 3],
-                constant: 0.0,
-                factor: pair.weight * normaliser / determinant.sqrt(),
-            };
+    pub fn shared_densities(&self, own: &Symmetric, into: &mut Vec<SharedDensity>) {
+        let s = Lanes::splat;
+        let (half, whole, normaliser) = (s(-HALF_LOG2_E), s(-2.0 * HALF_LOG2_E), s(normaliser(self.dimensions)));
+        into.resize(self.noises.len() * self.points, SharedDensity::default());
+        let mut terms = into.iter_mut();
+        for (pairs, lanes) in self.together() {
+            let covariance = sum(&loaded(&pairs.covariance), &splat(own));
+            let ([xx, xy, yy, xz, yz, zz], determinant) = inverse_of(&covariance, self.dimensions);
+            let [mut a, mut b, mut c, mut d, mut e, mut f, mut factor] = [[0.0; WIDTH]; 7];
+            (half * xx).store(&mut a);
+            (whole * xy).store(&mut b);
+            (half * yy).store(&mut c);
+            (whole * xz).store(&mut d);
+            (whole * yz).store(&mut e);
+            (half * zz).store(&mut f);
+            (Lanes::load(&pairs.weight) * normaliser / determinant.sqrt()).store(&mut factor);
+            let [x, y, z] = &pairs.end;
+            // no array maps: at the level for size each entry would be a call
+            for (lane, term) in lanes.zip(terms.by_ref()) {
+                let curvature = [a[lane], b[lane], c[lane], d[lane], e[lane], f[lane]];
+                *term = SharedDensity { mean: [x[lane], y[lane], z[lane]], curvature, factor: factor[lane] };
+            }
         }
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have each its own variances.
     pub fn densities(&self, into: &mut Vec<Density>) {
         let normaliser = normaliser(self.dimensions);
-        into.resize(self.pairs.len(), Density::default());
-        for (term, pair) in into.iter_mut().zip(&self.pairs) {
-            let [xx, xy, yy, xz, yz, zz] = pair.covariance;
-            *term = Density {
-                mean: self.end(pair),
-                variance: [xx, yy, zz],
-                covariance: [xy, xz, yz],
-                factor: pair.weight * normaliser,
-            };
+        into.resize(self.noises.len() * self.points, Density::default());
+        let mut terms = into.iter_mut();
+        for (pairs, lanes) in self.together() {
+            let ([xx, xy, yy, xz, yz, zz], [x, y, z]) = (&pairs.covariance, &pairs.end);
+            for (lane, term) in lanes.zip(terms.by_ref()) {
+                *term = Density {
+                    mean: [x[lane], y[lane], z[lane]],
+                    variance: [xx[lane], yy[lane], zz[lane]],
+                    covariance: [xy[lane], xz[lane], yz[lane]],
+                    factor: pairs.weight[lane] * normaliser,
+                };
+            }
         }
     }
 
-    /// Where the movement would end.
-    fn end(&self, pair: &Pair) -> Vector {
-        let ([x, y, z], [a, b, c]) = (&self.position, &pair.mean);
-        [x + a, y + b, z + c]
+    /// What is worked on together, each with the lanes that hold a pair.
+    fn together(&self) -> impl Iterator<Item = (&Together, Range<usize>)> {
+        let each = self.times.len().max(WIDTH) / WIDTH;
+        let filled = move |i: usize| self.points.saturating_sub(i % each * WIDTH).min(WIDTH);
+        self.pairs.iter().enumerate().map(move |(i, pairs)| (pairs, 0..filled(i)))
     }
+}
+
+/// The variance of the position in one axis, some time from now, but for the noise until then.
+#[inline(always)]
+fn grown(course: &Course, axis: usize, time: Lanes) -> Lanes {
+    let [pp, pv, vv] = course.axes[axis].covariance;
+    Lanes::splat(pp) + time * (Lanes::splat(pv + pv) + time * Lanes::splat(vv))
+}
+
+fn blocks(list: &[f64]) -> &[Block] {
+    list.as_chunks().0
+}
+
+#[inline(always)]
+fn loaded([a, b, c, d, e, f]: &Symmetric<Block>) -> Symmetric<Lanes> {
+    [Lanes::load(a), Lanes::load(b), Lanes::load(c), Lanes::load(d), Lanes::load(e), Lanes::load(f)]
+}
+
+#[inline(always)]
+fn splat([a, b, c, d, e, f]: &Symmetric) -> Symmetric<Lanes> {
+    let s = Lanes::splat;
+    [s(*a), s(*b), s(*c), s(*d), s(*e), s(*f)]
 }
 
 /// `(2 pi)^(-d/2)`.
@@ -160,16 +252,19 @@ fn normaliser(dimensions: usize) -> f64 {
     }
 }
 
-fn sum(a: &Symmetric, b: &Symmetric) -> Symmetric {
+#[inline(always)]
+fn sum<N: Number>(a: &Symmetric<N>, b: &Symmetric<N>) -> Symmetric<N> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]]
 }
 
 /// `(noise[0] I + noise[1] v v') factor`: the noise of a movement, wider along the velocity than across it.
+#[inline(always)]
 #[must_use]
-pub fn spread(noise: &[f64; 2], velocity: &Vector, factor: f64) -> Symmetric {
+pub fn spread<N: Number>(noise: &[f64; 2], velocity: &Vector, factor: N) -> Symmetric<N> {
     let [x, y, z] = *velocity;
-    let (even, along) = (noise[0] * factor, noise[1] * factor);
-    [even + along * x * x, along * x * y, even + along * y * y, along * x * z, along * y * z, even + along * z * z]
+    let (even, along) = (N::of(noise[0]) * factor, N::of(noise[1]) * factor);
+    let (xx, yy, zz) = (along * N::of(x * x), along * N::of(y * y), along * N::of(z * z));
+    [even + xx, along * N::of(x * y), even + yy, along * N::of(x * z), along * N::of(y * z), even + zz]
 }
 
 /// The position block of an endpoint's covariance.
@@ -179,32 +274,30 @@ pub fn symmetric(matrix: &DMatrix<f64>, dimensions: usize) -> Symmetric {
     [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)]
 }
 
-/// The inverse and the determinant of a positive definite matrix; components beyond the dimensions stay zero.
+/// The inverse and the determinant of a positive definite matrix; of axes that there are not nothing is told.
+#[inline(never)]
 #[must_use]
 pub fn inverse(matrix: &Symmetric, dimensions: usize) -> (Symmetric, f64) {
+    inverse_of(matrix, dimensions)
+}
+
+#[inline(always)]
+fn inverse_of<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (Symmetric<N>, N) {
     let [xx, xy, yy, xz, yz, zz] = *matrix;
-    match dimensions {
-        1 => ([1.0 / xx, 0.0, 0.0, 0.0, 0.0, 0.0], xx),
-        2 => {
-            let determinant = xx * yy - xy * xy;
-            let over = 1.0 / determinant;
-            ([yy * over, -xy * over, xx * over, 0.0, 0.0, 0.0], determinant)
-        }
-        _ => {
-            let minors = [
-                yy * zz - yz * yz,
-                xz * yz - xy * zz,
-                xx * zz - xz * xz,
-                xy * yz - xz * yy,
-                xy * xz - xx * yz,
-                xx * yy - xy * xy,
-            ];
-            let determinant = xx * minors[0] + xy * minors[1] + xz * minors[3];
-            let [a, b, c, d, e, f] = minors;
-            let by = determinant;
-            ([a / by, b / by, c / by, d / by, e / by, f / by], determinant)
-        }
+    let (zero, one) = (N::of(0.0), N::of(1.0));
+    if dimensions == 1 {
+        return ([one / xx, zero, zero, zero, zero, zero], xx);
     }
+    let f = xx * yy - xy * xy;
+    if dimensions == 2 {
+        let over = one / f;
+        return ([yy * over, (zero - xy) * over, xx * over, zero, zero, zero], f);
+    }
+    let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xx * zz - xz * xz);
+    let (d, e) = (xy * yz - xz * yy, xy * xz - xx * yz);
+    let determinant = xx * a + xy * b + xz * d;
+    let over = one / determinant;
+    ([a * over, b * over, c * over, d * over, e * over, f * over], determinant)
 }
 
 /// A symmetric matrix times a vector.

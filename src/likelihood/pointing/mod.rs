@@ -45,7 +45,7 @@ use weigh::{Now, Work};
 pub type Vector = [f64; 3];
 
 /// A symmetric matrix: xx, xy, yy, xz, yz, zz.
-pub(crate) type Symmetric = [f64; 6];
+pub(crate) type Symmetric<N = f64> = [N; 6];
 
 /// The inner product.
 #[must_use]

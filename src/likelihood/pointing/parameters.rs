@@ -3,7 +3,7 @@
 use super::entry_time::EntryTime;
 use super::{Vector, vector};
 use crate::error::{Code, Error, Result};
-use crate::math::lanes::{Lanes, Shift, WIDTH};
+use crate::math::lanes::{Block, Lanes, raise};
 use crate::math::mixture::HALF_LOG2_E;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
@@ -309,28 +309,22 @@ impl TimeToGo {
         (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
     }
 
-    /// The weights at a speed of the nodes with these logarithms; they sum to one.
-    pub fn weights(&self, log_nodes: &[f64], speed: f64, into: &mut Vec<f64>) {
-        let middle = self.median.ln() + self.speed_exponent * ((speed + 50.0) / 1000.0).ln();
-        into.clear();
-        // four exponentials at a time; what fills the last block up is next to nothing
-        into.resize(log_nodes.len().next_multiple_of(WIDTH), f64::MIN);
-        let mut top = f64::NEG_INFINITY;
+    /// The weights at a speed of the nodes with these logarithms over that of the median; they sum to one. `ones` has zeros
+    /// where there is no node.
+    pub fn weights(&self, log_nodes: &[Block], ones: &[Block], speed: f64, into: &mut [Block]) {
+        let s = Lanes::splat;
+        let (middle, over) = (s(self.speed_exponent * ((speed + 50.0) / 1000.0).ln()), s(1.0 / self.spread));
+        let mut top = s(f64::MIN);
         for (exponent, log) in into.iter_mut().zip(log_nodes) {
-            let apart = (log - middle) / self.spread;
-            *exponent = -HALF_LOG2_E * apart * apart;
-            top = top.max(*exponent);
+            let apart = (Lanes::load(log) - middle) * over;
+            let whole = s(-HALF_LOG2_E) * apart * apart;
+            whole.store(exponent);
+            top = whole.at_least(top);
         }
-        let shift = Shift::by(top);
-        let mut total = Lanes::splat(0.0);
-        for block in into.as_chunks_mut().0 {
-            let weights = Lanes::load(block).exp2(&shift);
-            weights.store(block);
-            total = total + weights;
+        let over = s(1.0 / raise(into, ones, top.most()));
+        for weight in into {
+            (Lanes::load(weight) * over).store(weight);
         }
-        let over = 1.0 / total.sum();
-        into.truncate(log_nodes.len());
-        into.iter_mut().for_each(|weight| *weight *= over);
     }
 }
 

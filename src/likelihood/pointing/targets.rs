@@ -10,7 +10,7 @@ use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-/// The variance of a direction that says nothing.
+/// The variance of a direction that says nothing. None is larger, and the product of three of them is a number still.
 const NO_DIRECTION: f64 = 1e100;
 
 /// Powers of `e` beyond this leave too little room for the rest of a product.

@@ -5,14 +5,14 @@
 //! ```
 //!
 //! with `t` the angle between the way so far and the destination, `w` and `c` the squares of `wide` and `core`. `N_i` is a
-//! sum of [`Ellipsoid`] terms where destinations share the covariance of their endpoints, of [`Density`] terms where not.
+//! sum of [`SharedDensity`] terms where destinations share the covariance of their endpoints, of [`Density`] terms where not.
 
 use super::Vector;
 use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
 use super::targets::Targets;
-use crate::math::lanes::{Block, Lanes, Shift};
-use crate::math::mixture::{AXES, Density, Ellipsoid, weigh_in};
+use crate::math::lanes::{Block, Lanes, raise};
+use crate::math::mixture::{AXES, Density, SharedDensity, weigh_in};
 use crate::model::destination::Destinations;
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
@@ -24,7 +24,7 @@ const NOTHING: f64 = 60.0;
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    ellipsoids: Vec<Ellipsoid>,
+    shared: Vec<SharedDensity>,
     densities: Vec<Density>,
     /// Room for the weights where destinations stand in another order than their own.
     aside: Vec<Block>,
@@ -56,7 +56,7 @@ impl Work {
         if !targets.moderate {
             return None;
         }
-        let Self { ellipsoids, densities, aside } = self;
+        let Self { shared, densities, aside } = self;
         let weights = targets.layout.room(aside, into);
         let d = now.nodes.dimensions();
         for class in &targets.classes {
@@ -65,8 +65,8 @@ impl Work {
             let (over_start, weights) = (&targets.over_start[blocks.clone()], &mut weights[blocks]);
             match &class.covariance {
                 Some(covariance) => {
-                    now.nodes.ellipsoids(covariance, ellipsoids);
-                    weigh_in(d, ellipsoids, &places, 0.0, over_start, weights);
+                    now.nodes.shared_densities(covariance, shared);
+                    weigh_in(d, shared, &places, 0.0, over_start, weights);
                 }
                 None => {
                     now.nodes.densities(densities);
@@ -87,6 +87,16 @@ impl Work {
     }
 }
 
+/// In one axis, the squares of the sum and of the difference of the unit vectors to the destinations and along the way;
+/// an axis that there is not has no block.
+#[inline(always)]
+fn apart((block, start, way): (Option<&Block>, f64, f64), over_distance: Lanes) -> (Lanes, Lanes) {
+    let Some(block) = block else { return (Lanes::splat(0.0), Lanes::splat(0.0)) };
+    let unit = (Lanes::load(block) - Lanes::splat(start)) * over_distance;
+    let (sum, difference) = (unit + Lanes::splat(way), unit - Lanes::splat(way));
+    (sum * sum, difference * difference)
+}
+
 /// Turns the sums `N_i / S_i` into the exponents of the likelihoods, and returns the largest, and the largest of those
 /// whose sums may have been cut off.
 #[inline(never)]
@@ -99,22 +109,17 @@ fn exponents(destinations: &Destinations, targets: &Targets, now: &Now<'_>, weig
     let statics = targets.angular_variance.iter().zip(&targets.over_distance);
     for (i, (exponent, (variance, over_distance))) in weights.iter_mut().zip(statics).enumerate() {
         let over_distance = Lanes::load(over_distance);
-        let [mut along, mut across] = [s(0.0); 2];
-        // no loop over the axes: at the level for size it would stay one; an axis that there is not has no blocks
-        let mut axis = |k: usize| {
-            let Some(block) = coordinates[k].get(i) else { return };
-            let unit = (Lanes::load(block) - s(now.start[k])) * over_distance;
-            let (sum, difference) = (unit + s(way[k]), unit - s(way[k]));
-            along = along + sum * sum;
-            across = across + difference * difference;
-        };
-        axis(0);
-        axis(1);
-        axis(2);
-        let (angle, variance) = (Lanes::squared_angle(along, across), Lanes::load(variance));
+        // no loop over the axes: at the level for size it would stay one
+        let [x, y, z] = [
+            (coordinates[0].get(i), now.start[0], way[0]),
+            (coordinates[1].get(i), now.start[1], way[1]),
+            (coordinates[2].get(i), now.start[2], way[2]),
+        ];
+        let ((a, b), (c, d), (e, f)) = (apart(x, over_distance), apart(y, over_distance), apart(z, over_distance));
+        let (angle, variance) = (Lanes::squared_angle(a + c + e, b + d + f), Lanes::load(variance));
         let (wide, core) = (wide + variance, core + variance);
-        let wider = (wide + angle) / wide;
-        let seen = wider * wider * core / (core + angle);
+        let wider = wide + angle;
+        let seen = (wider * wider * core) / (wide * wide * (core + angle));
         let ratio = Lanes::load(exponent).log2();
         let whole = power * ratio + weight * seen.log2();
         let sure = ((ratio - s(CERTAIN)).at_least(s(0.0))).at_most(s(1.0));
@@ -123,17 +128,4 @@ fn exponents(destinations: &Destinations, targets: &Targets, now: &Now<'_>, weig
         whole.store(exponent);
     }
     (most.most(), doubtful.most())
-}
-
-/// Turns exponents into weights, `prior_i 2^(exponent - shift)`, and returns their sum.
-#[inline(never)]
-fn raise(weights: &mut [Block], priors: &[Block], shift: f64) -> f64 {
-    let shift = Shift::by(shift);
-    let mut total = Lanes::splat(0.0);
-    for (weight, prior) in weights.iter_mut().zip(priors) {
-        let raised = Lanes::load(weight).exp2(&shift) * Lanes::load(prior);
-        raised.store(weight);
-        total = total + raised;
-    }
-    total.sum()
 }

@@ -1,7 +1,65 @@
-//! One Gaussian density whose axes are correlated, for places each of which has its own variances.
+//! One Gaussian density whose axes are correlated: for places that share an endpoint's covariance, and for places each of
+//! which has its own variances.
 
 use super::{AXES, HALF_LOG2_E, Places, Term, at};
 use crate::math::lanes::Lanes;
+
+/// A Gaussian density, the covariance that all places share included.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SharedDensity {
+    /// The mean.
+    pub mean: [f64; AXES],
+    /// The precision times `-log2(e)/2`, what is not on the diagonal doubled: xx, xy, yy, xz, yz, zz.
+    pub curvature: [f64; 6],
+    /// What multiplies the power, the normaliser.
+    pub factor: f64,
+}
+
+impl SharedDensity {
+    #[inline(always)]
+    fn offset(&self, axis: usize, coordinates: &[Lanes]) -> Lanes {
+        coordinates[axis] - Lanes::splat(self.mean[axis])
+    }
+
+    #[inline(always)]
+    fn times(&self, entry: usize, offset: Lanes) -> Lanes {
+        Lanes::splat(self.curvature[entry]) * offset
+    }
+}
+
+macro_rules! shared {
+    ($d:literal: $($axis:literal)+, |$term:ident, $coordinates:ident| $exponent:expr) => {
+        impl Term<$d> for SharedDensity {
+            /// Coordinates.
+            type Place = [Lanes; $d];
+
+            #[inline(always)]
+            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
+                Some([$(at(places.coordinates[$axis], i)?),+])
+            }
+
+            #[inline(always)]
+            fn exponent_and_factor(&self, $coordinates: &Self::Place) -> (Lanes, Lanes) {
+                let $term = self;
+                ($exponent, Lanes::splat(self.factor))
+            }
+        }
+    };
+}
+
+shared!(1: 0, |term, coordinates| {
+    let x = term.offset(0, coordinates);
+    x * term.times(0, x)
+});
+shared!(2: 0 1, |term, coordinates| {
+    let (x, y) = (term.offset(0, coordinates), term.offset(1, coordinates));
+    x * (term.times(0, x) + term.times(1, y)) + y * term.times(2, y)
+});
+shared!(3: 0 1 2, |term, coordinates| {
+    let (x, y, z) = (term.offset(0, coordinates), term.offset(1, coordinates), term.offset(2, coordinates));
+    let across = term.times(1, y) + term.times(3, z);
+    x * (term.times(0, x) + across) + y * (term.times(2, y) + term.times(4, z)) + z * term.times(5, z)
+});
 
 /// A Gaussian density, to each of whose variances every place adds its own.
 #[derive(Clone, Copy, Debug, Default)]

@@ -42,7 +42,7 @@ impl Pointing {
         for &(i, share) in shares {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
             let weights = pairs.weights(&center, covariance);
-            mean += share * pairs.pairs.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
+            mean += share * pairs.pairs().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
             near += share * entry.nearness(&minus(&vector(&center), &position), covariance, course.dimensions());
             total += share;
         }
@@ -53,8 +53,7 @@ impl Pointing {
     #[must_use]
     pub fn arrival(&self, destinations: &Destinations, shares: Shares<'_>) -> Arrival {
         let pairs = self.nodes();
-        let mut nodes = Vec::with_capacity(pairs.pairs.len());
-        nodes.extend(pairs.pairs.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)));
+        let mut nodes: Vec<_> = pairs.pairs().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
         for &(i, share) in shares {
             let weights = pairs.weights(&destinations.center(i), &destinations.kind(i).covariance);
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
