@@ -30,6 +30,15 @@ pub struct Pair {
     covariance: Symmetric,
 }
 
+/// The pairs one at a time, for all that is not asked of every destination after every observation.
+#[derive(Clone, Debug)]
+pub struct Pairs {
+    dimensions: usize,
+    position: Vector,
+    /// Scale by scale.
+    pub list: Vec<Pair>,
+}
+
 /// The pairs of one scale with as many times to go as are worked on together.
 #[derive(Clone, Copy, Debug, Default)]
 struct Together {
@@ -119,53 +128,23 @@ impl Nodes {
     }
 
     /// The pairs, scale by scale.
-    pub fn pairs(&self) -> impl ExactSizeIterator<Item = Pair> {
-        (0..self.noises.len() * self.points).map(|i| self.pair(i))
-    }
-
-    #[inline(never)]
-    fn pair(&self, i: usize) -> Pair {
-        let (scale, node) = (i / self.points.max(1), i % self.points.max(1));
-        let (block, lane) = (node / WIDTH, node % WIDTH);
-        let Together { weight, covariance, .. } =
-            self.pairs.get(scale * self.times.len() / WIDTH + block).copied().unwrap_or_default();
-        let time = self.times.get(node).copied().unwrap_or_default();
-        Pair {
-            time,
-            noise: self.noises.get(scale).copied().unwrap_or_default(),
-            weight: weight[lane],
-            mean: self.velocity.map(|velocity| velocity * time),
-            covariance: covariance.map(|entry| entry[lane]),
-        }
-    }
-
-    /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
     #[must_use]
-    pub fn log_density(&self, center: &[f64], endpoint: &DMatrix<f64>) -> f64 {
-        log_sum_exp(&self.log_terms(center, endpoint))
-    }
-
-    /// `p(c, R_n | D_i)`, in the order of the pairs; their priors where `N_i` is zero or no number.
-    #[must_use]
-    pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
-        let mut terms = self.log_terms(center, endpoint);
-        if share(&mut terms).is_none() {
-            terms.iter_mut().zip(self.pairs()).for_each(|(term, pair)| *term = pair.weight);
+    pub fn pairs(&self) -> Pairs {
+        let mut list = Vec::with_capacity(self.noises.len() * self.points);
+        for (noise, pairs) in self.noises.iter().zip(self.pairs.chunks(self.times.len().max(WIDTH) / WIDTH)) {
+            for node in 0..self.points {
+                let (lane, time) = (node % WIDTH, self.times.get(node).copied().unwrap_or_default());
+                let Together { weight, covariance, .. } = pairs.get(node / WIDTH).copied().unwrap_or_default();
+                list.push(Pair {
+                    time,
+                    noise: *noise,
+                    weight: weight[lane],
+                    mean: self.velocity.map(|velocity| velocity * time),
+                    covariance: covariance.map(|entry| entry[lane]),
+                });
+            }
         }
-        terms
-    }
-
-    /// The logarithms of the pairs' densities, weights included.
-    fn log_terms(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
-        let own = symmetric(endpoint, self.dimensions);
-        let offset = minus(&vector(center), &self.position);
-        let each = self.pairs().map(|pair| {
-            let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
-            let error = minus(&offset, &pair.mean);
-            let square = dot(&error, &times(&precision, &error));
-            pair.weight.ln() - 0.5 * (square + determinant.ln() + self.dimensions as f64 * LN_2_PI)
-        });
-        each.collect()
+        Pairs { dimensions: self.dimensions, position: self.position, list }
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
@@ -240,6 +219,37 @@ fn loaded([a, b, c, d, e, f]: &Symmetric<Block>) -> Symmetric<Lanes> {
 fn splat([a, b, c, d, e, f]: &Symmetric) -> Symmetric<Lanes> {
     let s = Lanes::splat;
     [s(*a), s(*b), s(*c), s(*d), s(*e), s(*f)]
+}
+
+impl Pairs {
+    /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
+    #[must_use]
+    pub fn log_density(&self, center: &[f64], endpoint: &DMatrix<f64>) -> f64 {
+        log_sum_exp(&self.log_terms(center, endpoint))
+    }
+
+    /// `p(c, R_n | D_i)`, in the order of the pairs; their priors where `N_i` is zero or no number.
+    #[must_use]
+    pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
+        let mut terms = self.log_terms(center, endpoint);
+        if share(&mut terms).is_none() {
+            terms.iter_mut().zip(&self.list).for_each(|(term, pair)| *term = pair.weight);
+        }
+        terms
+    }
+
+    /// The logarithms of the pairs' densities, weights included.
+    fn log_terms(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
+        let own = symmetric(endpoint, self.dimensions);
+        let offset = minus(&vector(center), &self.position);
+        let each = self.list.iter().map(|pair| {
+            let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
+            let error = minus(&offset, &pair.mean);
+            let square = dot(&error, &times(&precision, &error));
+            pair.weight.ln() - 0.5 * (square + determinant.ln() + self.dimensions as f64 * LN_2_PI)
+        });
+        each.collect()
+    }
 }
 
 /// `(2 pi)^(-d/2)`.

@@ -159,12 +159,13 @@ impl Pointing {
         }
         let power = parameters.power.after(self.course.elapsed);
         let direction = DirectionNow::new(&parameters.direction, &self.course);
+        let pairs = self.nodes.pairs();
         into.extend((0..destinations.len()).map(|i| {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
             let offset = minus(&vector(&center), &self.course.start);
             let start = log_start(&parameters.start, &offset) - self.log_volume;
             let seen = direction.log_evidence(&offset, covariance);
-            let whole = power * (self.nodes.log_density(&center, covariance) - start) + seen;
+            let whole = power * (pairs.log_density(&center, covariance) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
             if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
         }));

@@ -36,13 +36,13 @@ impl Pointing {
     #[must_use]
     pub fn entry_time(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<[f64; 3]> {
         let entry = self.parameters().remaining.as_ref()?;
-        let (pairs, course) = (self.nodes(), self.course());
+        let (pairs, course) = (self.nodes().pairs(), self.course());
         let position = course.position();
         let (mut mean, mut near, mut total) = (0.0, 0.0, 0.0);
         for &(i, share) in shares {
             let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
             let weights = pairs.weights(&center, covariance);
-            mean += share * pairs.pairs().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
+            mean += share * pairs.list.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
             near += share * entry.nearness(&minus(&vector(&center), &position), covariance, course.dimensions());
             total += share;
         }
@@ -52,8 +52,8 @@ impl Pointing {
     /// The posterior of the arrival time, in seconds since the first observation.
     #[must_use]
     pub fn arrival(&self, destinations: &Destinations, shares: Shares<'_>) -> Arrival {
-        let pairs = self.nodes();
-        let mut nodes: Vec<_> = pairs.pairs().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
+        let pairs = self.nodes().pairs();
+        let mut nodes: Vec<_> = pairs.list.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
         for &(i, share) in shares {
             let weights = pairs.weights(&destinations.center(i), &destinations.kind(i).covariance);
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);

@@ -28,8 +28,8 @@ impl Pointing {
 
     fn mix(&self, destinations: &Destinations, shares: Shares<'_>, view: impl Fn(&Pair) -> View) -> Option<Gaussian> {
         let d = self.course().dimensions();
-        let nodes = self.nodes();
-        let views: Vec<View> = nodes.pairs().map(|pair| view(&pair)).collect();
+        let pairs = self.nodes().pairs();
+        let views: Vec<View> = pairs.list.iter().map(view).collect();
         let mut moments = Moments::default();
         let mut kind = None;
         let mut conditioned = Vec::new();
@@ -40,9 +40,9 @@ impl Pointing {
                 conditioned.clear();
                 conditioned.extend(views.iter().map(|view| view.conditioned(covariance)));
             }
-            let weights = nodes.weights(&destinations.center(i), covariance);
+            let weights = pairs.weights(&destinations.center(i), covariance);
             let offset = minus(&vector(&destinations.center(i)), &self.course().position());
-            for (((pair, view), known), weight) in nodes.pairs().zip(&views).zip(&conditioned).zip(weights) {
+            for (((pair, view), known), weight) in pairs.list.iter().zip(&views).zip(&conditioned).zip(weights) {
                 let (weight, Some((gain, covariance))) = (share * weight, known) else { continue };
                 if weight <= 0.0 {
                     continue;
