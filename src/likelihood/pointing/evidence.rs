@@ -91,7 +91,7 @@ impl<'a> DirectionNow<'a> {
 
 /// `z`, the variance of the direction in which a target at `offset` is seen.
 #[must_use]
-pub fn angular_variance(offset: &Vector, covariance: &DMatrix<f64>, dimensions: usize) -> f64 {
+fn angular_variance(offset: &Vector, covariance: &DMatrix<f64>, dimensions: usize) -> f64 {
     if dimensions == 1 {
         return 0.0;
     }

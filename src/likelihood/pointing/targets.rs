@@ -1,17 +1,14 @@
 //! The destinations as flat arrays for the hot loop, by class, with what the start of the movement says of each.
 
-use super::evidence::{angular_variance, log_near, log_start};
+use super::evidence::{log_near, log_start};
 use super::parameters::Parameters;
-use super::{Symmetric, Vector, dot, minus, vector};
+use super::{Symmetric, Vector, minus, vector};
 use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::pointing::endpoint::symmetric;
 use crate::math::lanes::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// The variance of a direction that says nothing. None is larger, and the product of three of them is a number still.
-const NO_DIRECTION: f64 = 1e100;
 
 /// Powers of `e` beyond this leave too little room for the rest of a product.
 const MODERATE: f64 = 200.0;
@@ -32,10 +29,6 @@ pub struct Targets {
     pub classes: Vec<Class>,
     /// `1 / S_i`.
     pub over_start: Vec<Block>,
-    /// The variance of the direction in which a destination is seen from the start.
-    pub angular_variance: Vec<Block>,
-    /// One over the distance from the start; zero at the start itself.
-    pub over_distance: Vec<Block>,
     /// Prior probabilities times the factor `near`; zero where a block is filled up.
     pub priors: Vec<Block>,
     /// Whether no number is so large or small that products with it may leave their range.
@@ -80,32 +73,23 @@ impl Targets {
         let d = destinations.dimensions();
         let total: f64 = destinations.priors().iter().sum();
         self.moderate = true;
-        let (starts, directions) = (&mut self.over_start, &mut self.angular_variance);
-        for list in [starts, directions, &mut self.over_distance, &mut self.priors] {
+        for list in [&mut self.over_start, &mut self.priors] {
             list.clear();
             list.reserve_exact(self.layout.blocks());
         }
         for block in self.layout.members() {
-            let [mut over_start, mut directions, mut over_distance, mut priors] = [[0.0; WIDTH]; 4];
+            let [mut over_start, mut priors] = [[0.0; WIDTH]; 2];
             for (lane, (i, stands)) in block.into_iter().enumerate() {
                 let (kind, offset) = (destinations.kind(i), minus(&vector(&destinations.center(i)), start));
                 let log_start = log_start(&parameters.start, &offset) - log_volume;
                 let near = log_near(parameters.near, &offset, kind, d);
-                let distance = dot(&offset, &offset).sqrt();
-                self.moderate &= log_start.abs() < MODERATE && near > -MODERATE && distance < NO_DIRECTION;
+                self.moderate &= log_start.abs() < MODERATE && near > -MODERATE;
                 over_start[lane] = (-log_start).exp();
-                (directions[lane], over_distance[lane]) = if distance > 0.0 {
-                    (angular_variance(&offset, &kind.covariance, d), 1.0 / distance)
-                } else {
-                    (NO_DIRECTION, 0.0)
-                };
                 if stands {
                     priors[lane] = destinations.priors()[i] / total * near.exp();
                 }
             }
             self.over_start.push(over_start);
-            self.angular_variance.push(directions);
-            self.over_distance.push(over_distance);
             self.priors.push(priors);
         }
     }

@@ -10,13 +10,16 @@
 use super::Vector;
 use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
-use super::targets::Targets;
+use super::targets::{Class, Targets};
 use crate::math::lanes::{Block, Lanes, raise};
-use crate::math::mixture::{AXES, Density, SharedDensity, weigh_in};
+use crate::math::mixture::{AXES, Density, Places, SharedDensity, weigh_in};
 use crate::model::destination::Destinations;
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
 const CERTAIN: f64 = -500.0;
+
+/// The variance of a direction that says nothing. None is larger, and the product of three of them is a number still.
+const NO_DIRECTION: f64 = 1e100;
 
 /// What is this many powers of two below the most probable does not matter.
 const NOTHING: f64 = 60.0;
@@ -59,6 +62,7 @@ impl Work {
         let Self { shared, densities, aside } = self;
         let weights = targets.layout.room(aside, into);
         let d = now.nodes.dimensions();
+        let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
         for class in &targets.classes {
             let (places, blocks) =
                 (targets.layout.places(destinations, &class.blocks, [0.0; AXES]), class.blocks.clone());
@@ -73,8 +77,9 @@ impl Work {
                     weigh_in(d, densities, &places, 0.0, over_start, weights);
                 }
             }
+            let (best, worst) = exponents(class, &places, now, weights);
+            (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
-        let (most, doubtful) = exponents(destinations, targets, now, weights);
         let shift = most.round();
         let (total, certain) = (raise(weights, &targets.priors, shift), doubtful < most - NOTHING);
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
@@ -87,45 +92,68 @@ impl Work {
     }
 }
 
-/// In one axis, the squares of the sum and of the difference of the unit vectors to the destinations and along the way;
-/// an axis that there is not has no block.
-#[inline(always)]
-fn apart((block, start, way): (Option<&Block>, f64, f64), over_distance: Lanes) -> (Lanes, Lanes) {
-    let Some(block) = block else { return (Lanes::splat(0.0), Lanes::splat(0.0)) };
-    let unit = (Lanes::load(block) - Lanes::splat(start)) * over_distance;
-    let (sum, difference) = (unit + Lanes::splat(way), unit - Lanes::splat(way));
-    (sum * sum, difference * difference)
-}
-
 /// Turns the sums `N_i / S_i` into the exponents of the likelihoods, and returns the largest, and the largest of those
 /// whose sums may have been cut off.
 #[inline(never)]
-fn exponents(destinations: &Destinations, targets: &Targets, now: &Now<'_>, weights: &mut [Block]) -> (f64, f64) {
+fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [Block]) -> (f64, f64) {
     let s = Lanes::splat;
-    let coordinates = targets.layout.coordinates(destinations);
+    let (zero, one) = (s(0.0), s(1.0));
     let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));
     let (power, weight, way) = (s(now.power), s(now.direction.weight()), now.direction.unit());
+    let share = s(if now.nodes.dimensions() > 2 { 0.5 } else { 1.0 });
     let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
-    let statics = targets.angular_variance.iter().zip(&targets.over_distance);
-    for (i, (exponent, (variance, over_distance))) in weights.iter_mut().zip(statics).enumerate() {
-        let over_distance = Lanes::load(over_distance);
-        // no loop over the axes: at the level for size it would stay one
-        let [x, y, z] = [
-            (coordinates[0].get(i), now.start[0], way[0]),
-            (coordinates[1].get(i), now.start[1], way[1]),
-            (coordinates[2].get(i), now.start[2], way[2]),
-        ];
-        let ((a, b), (c, d), (e, f)) = (apart(x, over_distance), apart(y, over_distance), apart(z, over_distance));
-        let (angle, variance) = (Lanes::squared_angle(a + c + e, b + d + f), Lanes::load(variance));
+    for (i, exponent) in weights.iter_mut().enumerate() {
+        // no loops over the axes: at the level for size they would stay loops
+        let [x, y, z] =
+            [offset(places, 0, i, now.start), offset(places, 1, i, now.start), offset(places, 2, i, now.start)];
+        let square = x * x + y * y + z * z;
+        let distance = square.at_least(s(f64::MIN_POSITIVE)).sqrt();
+        // one division for both one over the distance and distance / (distance^2 + 1)
+        let (further, over) = (square + one, one / (distance * (square + one)));
+        let (x, y, z) = (x * further * over, y * further * over, z * further * over);
+        let (along, across) = apart(x, y, z, way);
+        let angle = Lanes::squared_angle(along, across);
+        let [xx, xy, yy, xz, yz, zz] = match &class.covariance {
+            Some([xx, xy, yy, xz, yz, zz]) => [s(*xx), s(*xy), s(*yy), s(*xz), s(*yz), s(*zz)],
+            None => [own(places, 0, i), zero, own(places, 1, i), zero, zero, own(places, 2, i)],
+        };
+        let (a, b, c) = (x * x, y * y, z * z);
+        let mixed = x * (xy * y + xz * z) + yz * y * z;
+        let across = share * (xx * (b + c) + yy * (a + c) + zz * (a + b) - (mixed + mixed));
+        let nowhere = (one - square * s(f64::MIN_POSITIVE.recip())).at_least(zero);
+        let shrunk = square * over;
+        let variance = across * shrunk * shrunk + nowhere * s(NO_DIRECTION);
         let (wide, core) = (wide + variance, core + variance);
         let wider = wide + angle;
         let seen = (wider * wider * core) / (wide * wide * (core + angle));
         let ratio = Lanes::load(exponent).log2();
         let whole = power * ratio + weight * seen.log2();
-        let sure = ((ratio - s(CERTAIN)).at_least(s(0.0))).at_most(s(1.0));
+        let sure = ((ratio - s(CERTAIN)).at_least(zero)).at_most(one);
         most = whole.at_least(most);
         doubtful = (whole - sure * s(1e9)).at_least(doubtful);
         whole.store(exponent);
     }
     (most.most(), doubtful.most())
+}
+
+#[inline(always)]
+fn offset(places: &Places<'_>, axis: usize, i: usize, start: &Vector) -> Lanes {
+    match places.coordinates[axis].get(i) {
+        Some(block) => Lanes::load(block) - Lanes::splat(start[axis]),
+        None => Lanes::splat(0.0),
+    }
+}
+
+#[inline(always)]
+fn own(places: &Places<'_>, axis: usize, i: usize) -> Lanes {
+    places.variances[axis].get(i).map_or(Lanes::splat(0.0), Lanes::load)
+}
+
+/// The squared lengths of the sum and of the difference of two unit vectors.
+#[inline(always)]
+fn apart(x: Lanes, y: Lanes, z: Lanes, [a, b, c]: Vector) -> (Lanes, Lanes) {
+    let (a, b, c) = (Lanes::splat(a), Lanes::splat(b), Lanes::splat(c));
+    let (sum, difference) = ((x + a, y + b, z + c), (x - a, y - b, z - c));
+    let square = |(x, y, z): (Lanes, Lanes, Lanes)| x * x + y * y + z * z;
+    (square(sum), square(difference))
 }
