@@ -83,7 +83,8 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
     let observe = |state: &DVector<f64>, random: &mut Random| drawn(random, &(&seen * state), noise);
     let first = drawn(random, &before.mean, &before.covariance);
     let first_seen = observe(&first, random);
-    let (mean, spread) = (scenario.destinations.mean(destination), &scenario.destinations.kind(destination).covariance);
+    let (mean, spread) =
+        (scenario.destinations.mean(destination), &scenario.destinations.kind(destination).covariance());
     let target = DVector::from_vec(mean);
     let (mut state, end) = match family {
         Family::Independent => (first, drawn(random, &target, spread)),

@@ -46,7 +46,7 @@ impl Likelihood for Algorithm1 {
         for node in scene.nodes_ahead(scene.elapsed) {
             // (10): L_*, Sigma_*
             let endpoint = Endpoint::after(scene.motion, node.remaining, node.covariance.nrows());
-            let noise = &endpoint.noise + node.covariance;
+            let noise = &endpoint.noise + &node.covariance;
             let Some(conditioned) = condition(&prediction, &endpoint.matrix, &noise) else { continue };
             // (11): Sigma_y
             let error = propagate(observation, &conditioned.covariance(), &step.measurement.noise);

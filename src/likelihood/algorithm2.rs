@@ -56,8 +56,8 @@ impl Likelihood for Algorithm2 {
             // (13): x_k given x_{k-1} and the pseudo-observation; L_y, and (I - L_y B_y) Q of the noise that is left
             let rest = Endpoint::after(scene.motion, node.remaining, length);
             let (Some(before), Some(onward)) = (
-                condition(&posterior, &whole.matrix, &(&whole.noise + node.covariance)),
-                condition(&transition.noise, &rest.matrix, &(&rest.noise + node.covariance)),
+                condition(&posterior, &whole.matrix, &(&whole.noise + &node.covariance)),
+                condition(&transition.noise, &rest.matrix, &(&rest.noise + &node.covariance)),
             ) else {
                 continue;
             };

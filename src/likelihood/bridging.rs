@@ -54,7 +54,7 @@ impl Likelihood for Bridging {
             let l = node.covariance.nrows();
             let mut joint = DMatrix::zeros(s + l, s + l);
             joint.view_mut((0, 0), (s, s)).copy_from(&scene.first.covariance);
-            joint.view_mut((s, s), (l, l)).copy_from(node.covariance);
+            joint.view_mut((s, s), (l, l)).copy_from(&node.covariance);
             self.covariances[node.number] = joint;
             for &i in &node.group.members {
                 let place = (scene.plan.rows[i as usize] + node.index) * stride;

@@ -62,7 +62,7 @@ impl Layout {
                 self.coordinates[axis] = self.gather(&|i, _| own.get(i).copied().unwrap_or_default());
             }
             if self.own_variances {
-                self.variances[axis] = self.gather(&|i, _| destinations.kind(i).covariance[(axis, axis)]);
+                self.variances[axis] = self.gather(&|i, _| destinations.kind(i).variance(axis, axis));
             }
         }
     }

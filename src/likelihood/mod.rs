@@ -189,7 +189,7 @@ impl fmt::Debug for dyn Likelihood + '_ {
 }
 
 /// One node of one group: everything that its destinations share there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct NodeOfGroup<'a> {
     pub group: &'a Group,
     /// The node's place in its grid.
@@ -201,7 +201,7 @@ pub(crate) struct NodeOfGroup<'a> {
     /// `T_n - t_1`.
     pub since_first: f64,
     /// The endpoint's covariance `S_i`.
-    pub covariance: &'a DMatrix<f64>,
+    pub covariance: DMatrix<f64>,
 }
 
 impl<'a> Scene<'a> {
@@ -212,7 +212,7 @@ impl<'a> Scene<'a> {
             let times = &self.plan.grids[group.grid].times;
             let base = first_number;
             first_number += times.len();
-            let covariance = &self.destinations.kinds()[group.kind].covariance;
+            let kind = &self.destinations.kinds()[group.kind];
             times.iter().enumerate().filter_map(move |(index, &time)| {
                 let remaining = self.plan.remaining(group.grid, time, elapsed);
                 (remaining > 0.0).then(|| NodeOfGroup {
@@ -221,7 +221,7 @@ impl<'a> Scene<'a> {
                     number: base + index,
                     remaining,
                     since_first: self.plan.since_first(group.grid, time, elapsed),
-                    covariance,
+                    covariance: kind.covariance(),
                 })
             })
         })

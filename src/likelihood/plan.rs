@@ -80,8 +80,8 @@ impl Plan {
         for i in 0..destinations.len() {
             let kind_number = destinations.kind_of()[i] as usize;
             let kind = &kinds[kind_number];
-            let prior = kind.arrival.as_ref().unwrap_or(arrival);
-            let known = if kind.arrival.is_some() { &mut shared[kind_number] } else { &mut default };
+            let prior = kind.arrival().unwrap_or(arrival);
+            let known = if kind.arrival().is_some() { &mut shared[kind_number] } else { &mut default };
             let grid = match *known {
                 Some(grid) if !prior.needs_distance() => grid,
                 _ => {

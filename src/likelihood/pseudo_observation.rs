@@ -41,7 +41,7 @@ impl Likelihood for PseudoObservation {
             let now = Endpoint::after(scene.motion, node.remaining, length);
             let start = Endpoint::after(scene.motion, node.since_first, length);
             let density = |endpoint: &Endpoint, covariance| {
-                Factor::new(propagate(&endpoint.matrix, covariance, &(&endpoint.noise + node.covariance)))
+                Factor::new(propagate(&endpoint.matrix, covariance, &(&endpoint.noise + &node.covariance)))
             };
             let (Some(from_now), Some(from_start)) =
                 (density(&now, &covariance), density(&start, &scene.first.covariance))

@@ -46,7 +46,7 @@ impl Likelihood for SingleFilterApproximate {
         let covariance = scene.filter.current_covariance();
         for node in scene.nodes_ahead(scene.elapsed) {
             let endpoint = Endpoint::after(scene.motion, node.remaining, node.covariance.nrows());
-            let predicted = propagate(&endpoint.matrix, &covariance, &(&endpoint.noise + node.covariance));
+            let predicted = propagate(&endpoint.matrix, &covariance, &(&endpoint.noise + &node.covariance));
             let Some(density) = Factor::new(predicted) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;
@@ -68,7 +68,7 @@ impl Likelihood for SingleFilter {
             let length = node.covariance.nrows();
             let now = Endpoint::after(scene.motion, node.remaining, length);
             let start = Endpoint::after(scene.motion, node.since_first, length);
-            let Some(integral) = Integral::new(scene, &now, &start, node.covariance) else { continue };
+            let Some(integral) = Integral::new(scene, &now, &start, &node.covariance) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;
                 let smoothed = scene.filter.smoothed_start(i).mean;

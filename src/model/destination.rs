@@ -7,15 +7,16 @@ use crate::math::lanes::Block;
 use crate::math::mixture::AXES;
 use crate::math::order::{Numbering, order};
 use crate::value::{Node, Value, number, quote, say};
-use nalgebra::{DMatrix, DVector};
 
 mod column;
 mod edit;
 mod ids;
+mod kind;
 mod means;
 
 use column::{Column, Filler};
 use ids::Ids;
+pub use kind::Kind;
 pub use means::Center;
 use means::Means;
 
@@ -29,7 +30,7 @@ pub const MOST_DESTINATIONS: usize = 1_000_000;
 /// let value: Value = serde_json::from_str(r#"{ "id": "map", "center": [500, 300], "size": [60, 12] }"#).unwrap();
 /// let destination = Destination::read(&Node::root(&value, "destination"), 2, 4).unwrap();
 /// assert_eq!((destination.mean, destination.prior), (vec![500.0, 300.0], 1.0));
-/// assert_eq!(destination.kind.covariance[(1, 1)], 12.0); // of an even density: 12^2 / 12
+/// assert_eq!(destination.kind.covariance()[(1, 1)], 12.0); // of an even density: 12^2 / 12
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Destination {
@@ -41,27 +42,6 @@ pub struct Destination {
     pub prior: f64,
     /// Everything that destinations may share.
     pub kind: Kind,
-}
-
-/// What many destinations have in common: the endpoint's covariance, its size, the arrival prior.
-///
-/// ```
-/// use whither::{Destination, Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "id": "map", "mean": [500], "covariance": [[48]] }"#).unwrap();
-/// let kind = Destination::read(&Node::root(&value, "destination"), 1, 2).unwrap().kind;
-/// assert_eq!(kind.size, None);
-/// assert_eq!(kind.extent(1), 24.0); // an even density 24 wide has the variance 24^2 / 12 = 48
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kind {
-    /// The endpoint's covariance `S_i`, `l` by `l`.
-    pub covariance: DMatrix<f64>,
-    /// The sides of the box, where it was given as `center` and `size`.
-    pub size: Option<Vec<f64>>,
-    /// The deviation of the velocity on arrival, where given.
-    pub end_velocity: Option<f64>,
-    /// The arrival prior of its own, where given.
-    pub arrival: Option<Arrival>,
 }
 
 /// The pointing model has no arrival prior.
@@ -103,7 +83,7 @@ impl Destination {
                 return Err(field.error(Code::WrongLength, &must));
             }
             let covariance = read_covariance(&fields.required("covariance")?, mean.len())?;
-            return Ok(Self { id, mean, prior, kind: Kind { covariance, size: None, end_velocity: None, arrival } });
+            return Ok(Self { id, mean, prior, kind: Kind::of_covariance(covariance, arrival) });
         };
         for key in ["mean", "covariance"] {
             if let Some(extra) = fields.optional(key) {
@@ -112,19 +92,15 @@ impl Destination {
         }
         let mut mean = center.vector(Some(dimensions))?;
         let size = fields.required("size")?.for_each_axis(dimensions, |n| n.positive())?;
-        let mut variances: Vec<f64> = size.iter().map(|side| side * side / 12.0).collect();
         let end_velocity = fields.optional("endVelocity");
         if let Some(field) = &end_velocity {
             if states < 2 * dimensions {
                 return Err(field.error(Code::OutOfRange, "the motion model has no velocity"));
             }
-            let deviation = field.positive()?;
-            variances.extend(vec![deviation * deviation; dimensions]);
             mean.extend(vec![0.0; dimensions]);
         }
-        let end_velocity = end_velocity.map(|field| field.number()).transpose()?;
-        let covariance = DMatrix::from_diagonal(&DVector::from_vec(variances));
-        Ok(Self { id, mean, prior, kind: Kind { covariance, size: Some(size), end_velocity, arrival } })
+        let end_velocity = end_velocity.map(|field| field.positive()).transpose()?;
+        Ok(Self { id, mean, prior, kind: Kind::of_box(&size, end_velocity, arrival) })
     }
 
     /// The scenario's own form.
@@ -132,37 +108,23 @@ impl Destination {
     pub fn to_value(&self) -> Value {
         let mut entries = vec![("id".to_owned(), Value::text(&self.id))];
         let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
-        if let Some(size) = &self.kind.size {
+        if let Some(size) = self.kind.size() {
             put("center", Value::numbers(&self.mean[..size.len()]));
             put("size", Value::numbers(size));
-            if let Some(deviation) = self.kind.end_velocity {
+            if let Some(deviation) = self.kind.end_velocity() {
                 put("endVelocity", Value::Number(deviation));
             }
         } else {
             put("mean", Value::numbers(&self.mean));
-            let rows = self.kind.covariance.row_iter().map(|row| Value::numbers(row.iter()));
+            let covariance = self.kind.covariance();
+            let rows = covariance.row_iter().map(|row| Value::numbers(row.iter()));
             put("covariance", Value::List(rows.collect()));
         }
         put("prior", Value::Number(self.prior));
-        if let Some(arrival) = &self.kind.arrival {
+        if let Some(arrival) = self.kind.arrival() {
             put("arrival", arrival.to_value());
         }
         Value::Map(entries)
-    }
-}
-
-impl Kind {
-    /// The extent that Fitts's law takes for the target's width: its smallest side, or the side of the uniform density
-    /// whose variance is the endpoint's smallest in position.
-    #[must_use]
-    pub fn extent(&self, dimensions: usize) -> f64 {
-        match &self.size {
-            Some(size) => size.iter().copied().fold(f64::INFINITY, f64::min),
-            None => {
-                let smallest = (0..dimensions).map(|i| self.covariance[(i, i)]).fold(f64::INFINITY, f64::min);
-                (12.0 * smallest).sqrt()
-            }
-        }
     }
 }
 
@@ -219,7 +181,7 @@ impl Destinations {
         let mut known = Numbering::default();
         for item in items {
             let destination = Destination::read(&item, dimensions, states)?;
-            let (kind, is_new) = known.of(&fingerprint(&destination.kind));
+            let (kind, is_new) = known.of(&destination.kind.fingerprint());
             if is_new {
                 all.kinds.push(destination.kind.clone());
             }
@@ -234,6 +196,7 @@ impl Destinations {
             }
         }
         all.by_id = by_id;
+        all.kinds.shrink_to_fit();
         all.check_priors(&node.path())?;
         Ok(all)
     }
@@ -308,7 +271,7 @@ impl Destinations {
     /// The endpoint's mean `a_i`, of length `l`.
     #[must_use]
     pub fn mean(&self, i: usize) -> Vec<f64> {
-        self.means.components(i, 0, self.kind(i).covariance.nrows())
+        self.means.components(i, 0, self.kind(i).length())
     }
 
     /// The centre, the first `d` components of the endpoint's mean.
@@ -320,7 +283,7 @@ impl Destinations {
     /// The components of the endpoint's mean after the first `d`.
     #[must_use]
     pub fn rest(&self, i: usize) -> Vec<f64> {
-        self.means.components(i, self.dimensions(), self.kind(i).covariance.nrows())
+        self.means.components(i, self.dimensions(), self.kind(i).length())
     }
 
     /// The centres in whole blocks, a list for each axis. The last block is filled up with its first destination.
@@ -396,16 +359,4 @@ impl Destinations {
 
 fn duplicate(path: String, id: &str, first: usize) -> Error {
     Error::new(Code::DuplicateId, path, say!("the id ", quote(id), " is taken by destinations[", first, "]"))
-}
-
-/// Equal kinds have equal fingerprints, and only they: all their numbers, bit by bit.
-fn fingerprint(kind: &Kind) -> Vec<u64> {
-    let mut bits: Vec<u64> = kind.covariance.iter().map(|x| x.to_bits()).collect();
-    bits.push(kind.size.as_ref().map_or(0, |size| size.len() as u64 + 1));
-    bits.extend(kind.size.iter().flatten().map(|x| x.to_bits()));
-    bits.push(kind.end_velocity.map_or(u64::MAX, f64::to_bits));
-    if let Some(arrival) = &kind.arrival {
-        arrival.to_value().bits(&mut bits);
-    }
-    bits
 }

@@ -61,7 +61,7 @@ impl Posterior {
             let motion = world.model.as_ref();
             for group in &plan.groups {
                 let nodes = &plan.grids[group.grid].times;
-                let endpoint_noise = &destinations.kinds()[group.kind].covariance;
+                let endpoint_noise = &destinations.kinds()[group.kind].covariance();
                 for (n, &time) in nodes.iter().enumerate() {
                     let place = c * nodes.len() + n;
                     let weight = |i: usize| node_weights[i].get(place).copied().unwrap_or(0.0);

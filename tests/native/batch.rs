@@ -28,8 +28,7 @@ impl<'a> Batch<'a> {
         let start = self.first_position(first);
         let d = self.scenario.motion.dimensions();
         let distance = destination.mean[..d].iter().zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
-        let grid =
-            destination.kind.arrival.as_ref().unwrap_or(arrival).grid(quadrature, distance, destination.kind.extent(d));
+        let grid = destination.kind.arrival().unwrap_or(arrival).grid(quadrature, distance, destination.kind.extent(d));
         let last = self.problem.observations[self.problem.observations.len() - 1].time - first.time;
         let mut sum = Vec::new();
         for candidate in &self.scenario.motion.candidates {
@@ -113,7 +112,7 @@ impl<'a> Batch<'a> {
         let l = destination.mean.len();
         let endpoint = DMatrix::from_fn(l, s, |r, c| f64::from(u8::from(r == c)));
         let a = DVector::from_column_slice(&destination.mean);
-        seen.push((times.len() - 1, a, endpoint, destination.kind.covariance.clone()));
+        seen.push((times.len() - 1, a, endpoint, destination.kind.covariance()));
         let rows: usize = seen.iter().map(|(_, y, ..)| y.len()).sum();
         let mut error = DVector::zeros(rows);
         let mut covariance = DMatrix::zeros(rows, rows);

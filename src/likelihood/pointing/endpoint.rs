@@ -15,7 +15,7 @@ use crate::math::gaussian::LN_2_PI;
 use crate::math::lanes::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::math::mixture::{Density, HALF_LOG2_E, SharedDensity};
-use nalgebra::DMatrix;
+use crate::model::destination::Kind;
 use std::ops::Range;
 
 /// One (scale, time to go).
@@ -224,14 +224,14 @@ fn splat([a, b, c, d, e, f]: &Symmetric) -> Symmetric<Lanes> {
 impl Pairs {
     /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
     #[must_use]
-    pub fn log_density(&self, center: &[f64], endpoint: &DMatrix<f64>) -> f64 {
-        log_sum_exp(&self.log_terms(center, endpoint))
+    pub fn log_density(&self, center: &[f64], kind: &Kind) -> f64 {
+        log_sum_exp(&self.log_terms(center, kind))
     }
 
     /// `p(c, R_n | D_i)`, in the order of the pairs; their priors where `N_i` is zero or no number.
     #[must_use]
-    pub fn weights(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
-        let mut terms = self.log_terms(center, endpoint);
+    pub fn weights(&self, center: &[f64], kind: &Kind) -> Vec<f64> {
+        let mut terms = self.log_terms(center, kind);
         if share(&mut terms).is_none() {
             terms.iter_mut().zip(&self.list).for_each(|(term, pair)| *term = pair.weight);
         }
@@ -239,8 +239,8 @@ impl Pairs {
     }
 
     /// The logarithms of the pairs' densities, weights included.
-    fn log_terms(&self, center: &[f64], endpoint: &DMatrix<f64>) -> Vec<f64> {
-        let own = symmetric(endpoint, self.dimensions);
+    fn log_terms(&self, center: &[f64], kind: &Kind) -> Vec<f64> {
+        let own = symmetric(kind, self.dimensions);
         let offset = minus(&vector(center), &self.position);
         let each = self.list.iter().map(|pair| {
             let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
@@ -279,8 +279,8 @@ pub fn spread<N: Number>(noise: &[f64; 2], velocity: &Vector, factor: N) -> Symm
 
 /// The position block of an endpoint's covariance.
 #[must_use]
-pub fn symmetric(matrix: &DMatrix<f64>, dimensions: usize) -> Symmetric {
-    let at = |r: usize, c: usize| if r < dimensions { matrix[(r, c)] } else { 0.0 };
+pub fn symmetric(kind: &Kind, dimensions: usize) -> Symmetric {
+    let at = |r: usize, c: usize| if r < dimensions { kind.variance(r, c) } else { 0.0 };
     [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)]
 }
 

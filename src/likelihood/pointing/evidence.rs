@@ -4,7 +4,6 @@ use super::course::Course;
 use super::parameters::{Direction, Start};
 use super::{Vector, cross, dot, minus};
 use crate::model::destination::Kind;
-use nalgebra::DMatrix;
 
 /// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is seen.
 #[must_use]
@@ -19,10 +18,7 @@ pub fn log_near(near: f64, offset: &Vector, kind: &Kind, dimensions: usize) -> f
     let mut distance = 0.0;
     let mut volume = 1.0;
     for (j, component) in offset.iter().enumerate().take(dimensions) {
-        let extent = match &kind.size {
-            Some(size) => size[j],
-            None => (12.0 * kind.covariance[(j, j)]).sqrt(),
-        };
+        let extent = kind.side(j);
         distance += (component / extent).powi(2);
         volume *= extent;
     }
@@ -79,11 +75,11 @@ impl<'a> DirectionNow<'a> {
     /// `power w [2 ln(1 + theta^2/(wide^2 + z)) - ln(1 + theta^2/(core^2 + z))]`, with `theta` the angle at the start between
     /// the way covered and the destination at `offset`, and `z` the variance of the target's own direction.
     #[must_use]
-    pub fn log_evidence(&self, offset: &Vector, covariance: &DMatrix<f64>) -> f64 {
+    pub fn log_evidence(&self, offset: &Vector, kind: &Kind) -> f64 {
         // a zero that is not negative: what is at the start itself lies in no direction
         let (along, across) = (dot(&self.way, offset) + 0.0, cross(&self.way, offset));
         let angle = dot(&across, &across).sqrt().atan2(along).powi(2);
-        let size = angular_variance(offset, covariance, self.dimensions);
+        let size = angular_variance(offset, kind, self.dimensions);
         let term = |square: f64| (angle / (square + size)).ln_1p();
         self.weight * (2.0 * term(self.wide_squared()) - term(self.core_squared()))
     }
@@ -91,15 +87,15 @@ impl<'a> DirectionNow<'a> {
 
 /// `z`, the variance of the direction in which a target at `offset` is seen.
 #[must_use]
-fn angular_variance(offset: &Vector, covariance: &DMatrix<f64>, dimensions: usize) -> f64 {
+fn angular_variance(offset: &Vector, kind: &Kind, dimensions: usize) -> f64 {
     if dimensions == 1 {
         return 0.0;
     }
     let (mut trace, mut towards) = (0.0, 0.0);
     for j in 0..dimensions {
-        trace += covariance[(j, j)];
+        trace += kind.variance(j, j);
         for k in 0..dimensions {
-            towards += offset[j] * covariance[(j, k)] * offset[k];
+            towards += offset[j] * kind.variance(j, k) * offset[k];
         }
     }
     let square = dot(offset, offset);

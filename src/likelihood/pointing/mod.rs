@@ -161,11 +161,11 @@ impl Pointing {
         let direction = DirectionNow::new(&parameters.direction, &self.course);
         let pairs = self.nodes.pairs();
         into.extend((0..destinations.len()).map(|i| {
-            let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
+            let (center, kind) = (destinations.center(i), destinations.kind(i));
             let offset = minus(&vector(&center), &self.course.start);
             let start = log_start(&parameters.start, &offset) - self.log_volume;
-            let seen = direction.log_evidence(&offset, covariance);
-            let whole = power * (pairs.log_density(&center, covariance) - start) + seen;
+            let seen = direction.log_evidence(&offset, kind);
+            let whole = power * (pairs.log_density(&center, kind) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
             if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
         }));

@@ -6,8 +6,7 @@ use super::{Symmetric, Vector, minus, vector};
 use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::pointing::endpoint::symmetric;
 use crate::math::lanes::{Block, WIDTH};
-use crate::model::destination::Destinations;
-use nalgebra::DMatrix;
+use crate::model::destination::{Destinations, Kind};
 use std::ops::Range;
 
 /// Powers of `e` beyond this leave too little room for the rest of a product.
@@ -50,10 +49,10 @@ impl Targets {
         let mut pool = Vec::new();
         let several = members.iter().filter(|members| !members.is_empty()).count() > 1;
         for (kind, members) in destinations.kinds().iter().zip(&members) {
-            if several && members.len() < FEW && is_straight(&kind.covariance, d) {
+            if several && members.len() < FEW && is_straight(kind, d) {
                 pool.extend(members);
             } else {
-                self.place(members, Some(symmetric(&kind.covariance, d)));
+                self.place(members, Some(symmetric(kind, d)));
             }
         }
         self.place(&pool, None);
@@ -96,6 +95,6 @@ impl Targets {
 }
 
 /// Whether the axes of an endpoint are independent.
-fn is_straight(covariance: &DMatrix<f64>, dimensions: usize) -> bool {
-    (0..dimensions).all(|i| (0..i).all(|j| covariance[(i, j)] == 0.0))
+fn is_straight(kind: &Kind, dimensions: usize) -> bool {
+    (0..dimensions).all(|i| (0..i).all(|j| kind.variance(i, j) == 0.0))
 }

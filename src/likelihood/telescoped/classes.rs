@@ -151,7 +151,7 @@ impl Classes {
         });
         let mut classes = Self {
             dimensions: d,
-            separable: separable && !destinations.kinds().iter().any(|kind| mixes(&kind.covariance)),
+            separable: separable && !destinations.kinds().iter().any(|kind| mixes(&kind.covariance())),
             nodes: nodes.collect(),
             ends: Vec::new(),
             classes: Vec::new(),
@@ -213,7 +213,7 @@ impl Classes {
         let (mut known_ends, mut known) = (Numbering::default(), Numbering::default());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
-            let covariance = &destinations.kinds()[group.kind].covariance;
+            let covariance = &destinations.kinds()[group.kind].covariance();
             let mut members: Vec<(usize, Draft)> = Vec::new();
             let mut here = Numbering::default();
             for &i in &group.members {

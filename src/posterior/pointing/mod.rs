@@ -40,10 +40,10 @@ impl Pointing {
         let position = course.position();
         let (mut mean, mut near, mut total) = (0.0, 0.0, 0.0);
         for &(i, share) in shares {
-            let (center, covariance) = (destinations.center(i), &destinations.kind(i).covariance);
-            let weights = pairs.weights(&center, covariance);
+            let (center, kind) = (destinations.center(i), destinations.kind(i));
+            let weights = pairs.weights(&center, kind);
             mean += share * pairs.list.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
-            near += share * entry.nearness(&minus(&vector(&center), &position), covariance, course.dimensions());
+            near += share * entry.nearness(&minus(&vector(&center), &position), kind, course.dimensions());
             total += share;
         }
         Some(entry.at(mean / total, near / total, course.elapsed))
@@ -55,7 +55,7 @@ impl Pointing {
         let pairs = self.nodes().pairs();
         let mut nodes: Vec<_> = pairs.list.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
         for &(i, share) in shares {
-            let weights = pairs.weights(&destinations.center(i), &destinations.kind(i).covariance);
+            let weights = pairs.weights(&destinations.center(i), destinations.kind(i));
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
         }
         Arrival::from_nodes(&nodes)

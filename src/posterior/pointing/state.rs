@@ -34,13 +34,13 @@ impl Pointing {
         let mut kind = None;
         let mut conditioned = Vec::new();
         for &(i, share) in shares {
-            let covariance = &destinations.kind(i).covariance;
             if kind != Some(destinations.kind_of()[i]) {
                 kind = Some(destinations.kind_of()[i]);
                 conditioned.clear();
-                conditioned.extend(views.iter().map(|view| view.conditioned(covariance)));
+                let covariance = destinations.kind(i).covariance();
+                conditioned.extend(views.iter().map(|view| view.conditioned(&covariance)));
             }
-            let weights = pairs.weights(&destinations.center(i), covariance);
+            let weights = pairs.weights(&destinations.center(i), destinations.kind(i));
             let offset = minus(&vector(&destinations.center(i)), &self.course().position());
             for (((pair, view), known), weight) in pairs.list.iter().zip(&views).zip(&conditioned).zip(weights) {
                 let (weight, Some((gain, covariance))) = (share * weight, known) else { continue };
