@@ -78,7 +78,7 @@ impl Plan {
         let mut default: Option<u32> = None;
         let mut groups = Numbering::default();
         for i in 0..destinations.len() {
-            let kind_number = destinations.kind_of()[i] as usize;
+            let kind_number = destinations.kind_number(i);
             let kind = &kinds[kind_number];
             let prior = kind.arrival().unwrap_or(arrival);
             let known = if kind.arrival().is_some() { &mut shared[kind_number] } else { &mut default };

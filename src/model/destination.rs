@@ -12,11 +12,13 @@ mod column;
 mod edit;
 mod ids;
 mod kind;
+mod kinds;
 mod means;
 
 use column::{Column, Filler};
 use ids::Ids;
 pub use kind::Kind;
+use kinds::Kinds;
 pub use means::Center;
 use means::Means;
 
@@ -150,8 +152,7 @@ pub struct Destinations {
     priors: Column,
     /// The priors in force where they are learnt.
     learnt: Option<Column>,
-    kind_of: Vec<u32>,
-    kinds: Vec<Kind>,
+    kinds: Kinds,
 }
 
 impl Destinations {
@@ -175,17 +176,16 @@ impl Destinations {
             means: Means::with_capacity(count, dimensions),
             priors: Column::with_capacity(count, Filler::Zero),
             learnt: None,
-            kind_of: Vec::with_capacity(count),
-            kinds: Vec::new(),
+            kinds: Kinds::default(),
         };
         let mut known = Numbering::default();
         for item in items {
             let destination = Destination::read(&item, dimensions, states)?;
             let (kind, is_new) = known.of(&destination.kind.fingerprint());
             if is_new {
-                all.kinds.push(destination.kind.clone());
+                all.kinds.found(&destination.kind);
             }
-            all.push(&destination, kind as u32);
+            all.push(&destination, kind);
         }
         let by_id = order(count, &|i, j| all.ids.get(i).cmp(all.ids.get(j)));
         for pair in by_id.windows(2) {
@@ -196,16 +196,17 @@ impl Destinations {
             }
         }
         all.by_id = by_id;
-        all.kinds.shrink_to_fit();
+        all.ids.trim();
+        all.kinds.trim();
         all.check_priors(&node.path())?;
         Ok(all)
     }
 
-    fn push(&mut self, destination: &Destination, kind: u32) {
+    fn push(&mut self, destination: &Destination, kind: usize) {
         self.ids.push(&destination.id);
         self.means.push(&destination.mean);
         self.priors.push(destination.prior);
-        self.kind_of.push(kind);
+        self.kinds.push(kind);
     }
 
     fn check_priors(&self, path: &str) -> Result<()> {
@@ -324,19 +325,19 @@ impl Destinations {
     /// What destination `i` shares with others.
     #[must_use]
     pub fn kind(&self, i: usize) -> &Kind {
-        &self.kinds[self.kind_of[i] as usize]
+        &self.kinds()[self.kind_number(i)]
     }
 
-    /// Which kind each destination is of.
+    /// Which of the kinds destination `i` is of.
     #[must_use]
-    pub fn kind_of(&self) -> &[u32] {
-        &self.kind_of
+    pub fn kind_number(&self, i: usize) -> usize {
+        self.kinds.of(i)
     }
 
     /// The kinds; some may have no destination left.
     #[must_use]
     pub fn kinds(&self) -> &[Kind] {
-        &self.kinds
+        self.kinds.list()
     }
 
     /// Destination `i` in full.

@@ -43,8 +43,8 @@ impl Targets {
         self.classes.clear();
         self.layout = Layout::default();
         let mut members: Vec<Vec<u32>> = vec![Vec::new(); destinations.kinds().len()];
-        for (i, &kind) in (0..).zip(destinations.kind_of()) {
-            members[kind as usize].push(i);
+        for i in 0..destinations.len() {
+            members[destinations.kind_number(i)].push(i as u32);
         }
         let mut pool = Vec::new();
         let several = members.iter().filter(|members| !members.is_empty()).count() > 1;

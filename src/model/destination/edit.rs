@@ -1,6 +1,6 @@
 //! Destinations that come, change and go.
 
-use super::{Destination, Destinations, Kind, MOST_DESTINATIONS, duplicate};
+use super::{Destination, Destinations, MOST_DESTINATIONS, duplicate};
 use crate::error::{Code, Error, Result};
 use crate::value::say;
 
@@ -20,7 +20,7 @@ impl Destinations {
             return Err(Error::new(Code::TooLarge, "destinations", message));
         }
         self.by_id.insert(place, self.ids.len() as u32);
-        let kind = self.place_kind(&destination.kind);
+        let kind = self.kinds.place(&destination.kind, None);
         self.push(destination, kind);
         Ok(())
     }
@@ -38,8 +38,7 @@ impl Destinations {
         }
         self.means.replace(i, &destination.mean);
         if *self.kind(i) != destination.kind {
-            self.kind_of[i] = u32::MAX;
-            self.kind_of[i] = self.place_kind(&destination.kind);
+            self.kinds.replace(i, &destination.kind);
         }
         Ok(())
     }
@@ -60,7 +59,7 @@ impl Destinations {
         }
         self.ids.remove(i);
         self.priors.remove(i);
-        self.kind_of.remove(i);
+        self.kinds.remove(i);
         self.means.remove(i);
         self.by_id.retain(|&j| j as usize != i);
         for j in &mut self.by_id {
@@ -69,37 +68,9 @@ impl Destinations {
         Ok(())
     }
 
-    /// Numbers the kinds in the order of their first destinations, as reading a list does, and forgets the others: what is
-    /// computed from a list must not depend on how it came about.
+    /// Numbers the kinds anew, as reading a list does: what is computed from a list must not depend on how it came about.
     pub fn renumber(&mut self) {
-        let mut numbers = vec![u32::MAX; self.kinds.len()];
-        let mut kinds = Vec::with_capacity(self.kinds.len());
-        for kind in &mut self.kind_of {
-            let number = &mut numbers[*kind as usize];
-            if *number == u32::MAX {
-                *number = kinds.len() as u32;
-                kinds.push(self.kinds[*kind as usize].clone());
-            }
-            *kind = *number;
-        }
-        self.kinds = kinds;
-    }
-
-    /// The number of an equal kind, or of a free place for a new one.
-    fn place_kind(&mut self, kind: &Kind) -> u32 {
-        if let Some(found) = self.kinds.iter().position(|known| known == kind) {
-            return found as u32;
-        }
-        let mut used = vec![false; self.kinds.len()];
-        for &k in self.kind_of.iter().filter(|&&k| k != u32::MAX) {
-            used[k as usize] = true;
-        }
-        if let Some(free) = used.iter().position(|used| !used) {
-            self.kinds[free] = kind.clone();
-            return free as u32;
-        }
-        self.kinds.push(kind.clone());
-        self.kinds.len() as u32 - 1
+        self.kinds.renumber();
     }
 }
 

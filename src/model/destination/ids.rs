@@ -39,6 +39,11 @@ impl Ids {
         self.ends.push(self.text.len());
     }
 
+    /// Gives back what was only room to grow.
+    pub fn trim(&mut self) {
+        self.text.shrink_to_fit();
+    }
+
     /// Takes one out; those after it move up.
     pub fn remove(&mut self, i: usize) {
         let range = self.range(i);

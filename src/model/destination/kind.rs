@@ -22,8 +22,8 @@ pub struct Kind {
 /// Boxes are many and kept small; what they say is told from their sides.
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
-    /// The sides, of which so many count, and the deviation of the velocity on arrival.
-    Box { sides: [f64; AXES], dimensions: u8, end_velocity: Option<f64> },
+    /// The sides, zero in axes that there are not, and the deviation of the velocity on arrival, zero where none is given.
+    Box { sides: [f64; AXES], end_velocity: f64 },
     /// `S_i`, `l` by `l`.
     Covariance(Box<DMatrix<f64>>),
 }
@@ -33,7 +33,7 @@ impl Kind {
     pub(super) fn of_box(size: &[f64], end_velocity: Option<f64>, arrival: Option<Arrival>) -> Self {
         let mut sides = [0.0; AXES];
         sides.iter_mut().zip(size).for_each(|(side, given)| *side = *given);
-        let shape = Shape::Box { sides, dimensions: size.len() as u8, end_velocity };
+        let shape = Shape::Box { sides, end_velocity: end_velocity.unwrap_or(0.0) };
         Self { shape, arrival: arrival.map(Box::new) }
     }
 
@@ -46,8 +46,7 @@ impl Kind {
     #[must_use]
     pub fn length(&self) -> usize {
         match &self.shape {
-            Shape::Box { dimensions, end_velocity: None, .. } => usize::from(*dimensions),
-            Shape::Box { dimensions, .. } => 2 * usize::from(*dimensions),
+            Shape::Box { sides, end_velocity } => dimensions(sides) * if *end_velocity > 0.0 { 2 } else { 1 },
             Shape::Covariance(covariance) => covariance.nrows(),
         }
     }
@@ -58,10 +57,11 @@ impl Kind {
         match &self.shape {
             Shape::Covariance(covariance) => covariance.get((row, column)).copied().unwrap_or_default(),
             Shape::Box { .. } if row != column => 0.0,
-            Shape::Box { sides, dimensions, .. } if row < usize::from(*dimensions) => {
-                sides.get(row).map_or(0.0, |side| side * side / 12.0)
-            }
-            Shape::Box { end_velocity, .. } => end_velocity.map_or(0.0, |deviation| deviation * deviation),
+            Shape::Box { sides, end_velocity } => match sides.get(row) {
+                Some(side) if *side > 0.0 => side * side / 12.0,
+                _ if row < self.length() => end_velocity * end_velocity,
+                _ => 0.0,
+            },
         }
     }
 
@@ -78,7 +78,7 @@ impl Kind {
     #[must_use]
     pub fn size(&self) -> Option<&[f64]> {
         match &self.shape {
-            Shape::Box { sides, dimensions, .. } => sides.get(..usize::from(*dimensions)),
+            Shape::Box { sides, .. } => sides.get(..dimensions(sides)),
             Shape::Covariance(_) => None,
         }
     }
@@ -87,8 +87,8 @@ impl Kind {
     #[must_use]
     pub fn end_velocity(&self) -> Option<f64> {
         match self.shape {
-            Shape::Box { end_velocity, .. } => end_velocity,
-            Shape::Covariance(_) => None,
+            Shape::Box { end_velocity, .. } if end_velocity > 0.0 => Some(end_velocity),
+            _ => None,
         }
     }
 
@@ -116,8 +116,8 @@ impl Kind {
     pub(super) fn fingerprint(&self) -> Vec<u64> {
         let mut bits = Vec::new();
         match &self.shape {
-            Shape::Box { sides, dimensions, end_velocity } => {
-                bits.extend([u64::from(*dimensions), end_velocity.map_or(u64::MAX, f64::to_bits)]);
+            Shape::Box { sides, end_velocity } => {
+                bits.push(end_velocity.to_bits());
                 bits.extend(sides.iter().map(|side| side.to_bits()));
             }
             Shape::Covariance(covariance) => {
@@ -130,4 +130,9 @@ impl Kind {
         }
         bits
     }
+}
+
+/// How many axes a box has.
+fn dimensions(sides: &[f64; AXES]) -> usize {
+    sides.iter().take_while(|side| **side > 0.0).count()
 }

@@ -34,8 +34,8 @@ impl Pointing {
         let mut kind = None;
         let mut conditioned = Vec::new();
         for &(i, share) in shares {
-            if kind != Some(destinations.kind_of()[i]) {
-                kind = Some(destinations.kind_of()[i]);
+            if kind != Some(destinations.kind_number(i)) {
+                kind = Some(destinations.kind_number(i));
                 conditioned.clear();
                 let covariance = destinations.kind(i).covariance();
                 conditioned.extend(views.iter().map(|view| view.conditioned(&covariance)));
