@@ -94,9 +94,8 @@ impl Nodes {
         let s = Lanes::splat;
         let speed = course.speed();
         (self.position, self.velocity) = (course.position(), course.velocity());
-        let [times, log_times, ones] = [&self.times, &self.log_times, &self.ones].map(|list| blocks(list));
-        let weights = self.weights.as_chunks_mut().0;
-        parameters.time_to_go.weights(log_times, ones, speed, weights);
+        let (times, weights) = (blocks(&self.times), self.weights.as_chunks_mut().0);
+        parameters.time_to_go.weights(blocks(&self.log_times), blocks(&self.ones), speed, weights);
         let each = 1.0 / parameters.scales.len() as f64;
         let (along, across) = (parameters.along_noise.powi(2), parameters.across_noise.powi(2));
         let mut pairs = self.pairs.iter_mut();
@@ -134,13 +133,14 @@ impl Nodes {
         for (noise, pairs) in self.noises.iter().zip(self.pairs.chunks(self.times.len().max(WIDTH) / WIDTH)) {
             for node in 0..self.points {
                 let (lane, time) = (node % WIDTH, self.times.get(node).copied().unwrap_or_default());
-                let Together { weight, covariance, .. } = pairs.get(node / WIDTH).copied().unwrap_or_default();
+                let Some(Together { weight, covariance, .. }) = pairs.get(node / WIDTH) else { break };
+                let ([x, y, z], [a, b, c, d, e, f]) = (self.velocity, covariance);
                 list.push(Pair {
                     time,
                     noise: *noise,
                     weight: weight[lane],
-                    mean: self.velocity.map(|velocity| velocity * time),
-                    covariance: covariance.map(|entry| entry[lane]),
+                    mean: [x * time, y * time, z * time],
+                    covariance: [a[lane], b[lane], c[lane], d[lane], e[lane], f[lane]],
                 });
             }
         }

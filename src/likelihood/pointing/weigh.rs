@@ -100,26 +100,40 @@ fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [B
     let (zero, one) = (s(0.0), s(1.0));
     let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));
     let (power, weight, way) = (s(now.power), s(now.direction.weight()), now.direction.unit());
-    let share = s(if now.nodes.dimensions() > 2 { 0.5 } else { 1.0 });
+    let three = now.nodes.dimensions() > 2;
     let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
     for (i, exponent) in weights.iter_mut().enumerate() {
         // no loops over the axes: at the level for size they would stay loops
-        let [x, y, z] =
-            [offset(places, 0, i, now.start), offset(places, 1, i, now.start), offset(places, 2, i, now.start)];
-        let square = x * x + y * y + z * z;
+        let (x, y) = (offset(places, 0, i, now.start), offset(places, 1, i, now.start));
+        let third = if three { Some(offset(places, 2, i, now.start)) } else { None };
+        let mut square = x * x + y * y;
+        if let Some(z) = third {
+            square = square + z * z;
+        }
         let distance = square.at_least(s(f64::MIN_POSITIVE)).sqrt();
         // one division for both one over the distance and distance / (distance^2 + 1)
         let (further, over) = (square + one, one / (distance * (square + one)));
-        let (x, y, z) = (x * further * over, y * further * over, z * further * over);
-        let (along, across) = apart(x, y, z, way);
-        let angle = Lanes::squared_angle(along, across);
+        let scale = further * over;
+        let (x, y) = (x * scale, y * scale);
         let [xx, xy, yy, xz, yz, zz] = match &class.covariance {
             Some([xx, xy, yy, xz, yz, zz]) => [s(*xx), s(*xy), s(*yy), s(*xz), s(*yz), s(*zz)],
             None => [own(places, 0, i), zero, own(places, 1, i), zero, zero, own(places, 2, i)],
         };
-        let (a, b, c) = (x * x, y * y, z * z);
-        let mixed = x * (xy * y + xz * z) + yz * y * z;
-        let across = share * (xx * (b + c) + yy * (a + c) + zz * (a + b) - (mixed + mixed));
+        let (a, b) = (x * x, y * y);
+        let (sum, difference) = ((x + s(way[0]), y + s(way[1])), (x - s(way[0]), y - s(way[1])));
+        let mut along = sum.0 * sum.0 + sum.1 * sum.1;
+        let mut opposite = difference.0 * difference.0 + difference.1 * difference.1;
+        let mixed = xy * x * y;
+        let mut across = xx * b + yy * a - (mixed + mixed);
+        if let Some(z) = third {
+            let z = z * scale;
+            let (sum, difference) = (z + s(way[2]), z - s(way[2]));
+            along = along + sum * sum;
+            opposite = opposite + difference * difference;
+            let mixed = z * (xz * x + yz * y);
+            across = s(0.5) * (across + (xx + yy) * (z * z) + zz * (a + b) - (mixed + mixed));
+        }
+        let angle = Lanes::squared_angle(along, opposite);
         let nowhere = (one - square * s(f64::MIN_POSITIVE.recip())).at_least(zero);
         let shrunk = square * over;
         let variance = across * shrunk * shrunk + nowhere * s(NO_DIRECTION);
@@ -147,13 +161,4 @@ fn offset(places: &Places<'_>, axis: usize, i: usize, start: &Vector) -> Lanes {
 #[inline(always)]
 fn own(places: &Places<'_>, axis: usize, i: usize) -> Lanes {
     places.variances[axis].get(i).map_or(Lanes::splat(0.0), Lanes::load)
-}
-
-/// The squared lengths of the sum and of the difference of two unit vectors.
-#[inline(always)]
-fn apart(x: Lanes, y: Lanes, z: Lanes, [a, b, c]: Vector) -> (Lanes, Lanes) {
-    let (a, b, c) = (Lanes::splat(a), Lanes::splat(b), Lanes::splat(c));
-    let (sum, difference) = ((x + a, y + b, z + c), (x - a, y - b, z - c));
-    let square = |(x, y, z): (Lanes, Lanes, Lanes)| x * x + y * y + z * z;
-    (square(sum), square(difference))
 }
