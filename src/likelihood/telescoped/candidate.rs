@@ -117,12 +117,13 @@ impl Candidate {
                     coupled.first.clone()
                 };
                 let start_steps = if nodes.from_now { &to_now.whole } else { &to_start.whole };
-                let now = coupled.now();
+                let (now, mut room) = (coupled.now(), coupled::Room::default());
                 let steps = to_now.whole.iter().zip(start_steps).zip(weights.as_flattened());
                 for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
                     let factor = self.weight * weight;
                     let d = model.dimensions();
-                    let term = coupled::ellipsoid((&now, step), (&start, start_step), end, factor, lead, d);
+                    let term =
+                        coupled::ellipsoid((&now, step), (&start, start_step), end, (factor, lead), d, &mut room);
                     work.ellipsoids.extend(term);
                 }
             }

@@ -7,7 +7,6 @@ use crate::math::kalman::Filter;
 use crate::math::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
 use crate::math::product::apply;
 use crate::model::motion::{MotionModel, Transition};
-use nalgebra::DVector;
 
 /// A matrix over the axes.
 type Matrix = [[f64; AXES]; AXES];
@@ -46,45 +45,67 @@ struct Seen {
     exponent: f64,
 }
 
+/// Room for what one node is computed with, kept from node to node.
+#[derive(Clone, Debug, Default)]
+pub struct Room {
+    mean: Vec<f64>,
+    product: Vec<f64>,
+    /// Column by column.
+    covariance: Vec<f64>,
+}
+
 impl Seen {
     /// From a state, `step` before the endpoint.
+    // over slices: at the level for size each index of a matrix, and each step of an iterator, would be a call
     #[inline(never)]
-    fn new(from: &Gaussian, step: &Transition, end: &End, d: usize) -> Self {
+    fn new(from: &Gaussian, step: &Transition, end: &End, d: usize, room: &mut Room) -> Self {
         let (s, length) = (from.mean.len(), end.covariance.nrows());
-        let mut covariance = end.covariance.clone();
-        let mut mean = DVector::zeros(length);
-        let mut product = DVector::zeros(s);
+        let (transition, offset, noise) = (step.transition.as_slice(), step.offset.as_slice(), step.noise.as_slice());
+        let (start, before) = (from.mean.as_slice(), from.covariance.as_slice());
+        let Room { mean, product, covariance } = room;
+        mean.clear();
+        product.resize(s, 0.0);
+        covariance.clear();
+        covariance.extend_from_slice(end.covariance.as_slice());
         for i in 0..length {
-            let row = step.transition.row(i);
-            mean[i] = step.offset[i] + (0..s).map(|m| row[m] * from.mean[m]).sum::<f64>();
+            let mut whole = offset[i];
             for m in 0..s {
-                product[m] = (0..s).map(|j| row[j] * from.covariance[(j, m)]).sum::<f64>();
+                whole += transition[i + m * s] * start[m];
+                let mut entry = 0.0;
+                for j in 0..s {
+                    entry += transition[i + j * s] * before[j + m * s];
+                }
+                product[m] = entry;
             }
-            for j in 0..=i {
-                let entry = (0..s).map(|m| product[m] * step.transition[(j, m)]).sum::<f64>();
-                covariance[(i, j)] += step.noise[(i, j)] + entry;
+            mean.push(whole);
+            for j in 0..i + 1 {
+                let mut entry = noise[i + j * s];
+                for m in 0..s {
+                    entry += product[m] * transition[j + m * s];
+                }
+                covariance[i + j * length] += entry;
             }
         }
         let (mut density, mut exponent) = (1.0, 0.0);
         for r in (d..length).rev() {
-            let inverse = 1.0 / covariance[(r, r)];
+            let inverse = 1.0 / covariance[r + r * length];
             let error = end.rest[r - d] - mean[r];
             density *= inverse;
             exponent -= HALF_LOG2_E * (error * error * inverse);
             for i in 0..r {
-                let gain = covariance[(r, i)] * inverse;
+                let gain = covariance[r + i * length] * inverse;
                 mean[i] += gain * error;
-                for j in 0..=i {
-                    covariance[(i, j)] -= gain * covariance[(r, j)];
+                for j in 0..i + 1 {
+                    covariance[i + j * length] -= gain * covariance[r + j * length];
                 }
             }
         }
         let mut seen = Self { mean: [0.0; AXES], covariance: [[0.0; AXES]; AXES], density, exponent };
         for i in 0..d {
             seen.mean[i] = mean[i];
-            for j in 0..=i {
-                seen.covariance[i][j] = covariance[(i, j)];
-                seen.covariance[j][i] = covariance[(i, j)];
+            for j in 0..i + 1 {
+                seen.covariance[i][j] = covariance[i + j * length];
+                seen.covariance[j][i] = covariance[i + j * length];
             }
         }
         seen
@@ -97,12 +118,12 @@ pub fn ellipsoid(
     now: (&Gaussian, &Transition),
     start: (&Gaussian, &Transition),
     end: &End,
-    factor: f64,
-    lead: f64,
+    (factor, lead): (f64, f64),
     d: usize,
+    room: &mut Room,
 ) -> Option<Ellipsoid> {
-    let here = Seen::new(now.0, now.1, end, d);
-    let there = Seen::new(start.0, start.1, end, d);
+    let here = Seen::new(now.0, now.1, end, d, room);
+    let there = Seen::new(start.0, start.1, end, d, room);
     let (precision, determinant) = inverse(here.covariance, d)?;
     let (start_precision, start_determinant) = inverse(there.covariance, d)?;
     let mut term = Ellipsoid {
@@ -113,7 +134,10 @@ pub fn ellipsoid(
     };
     for i in 0..d {
         let apart = |j: usize| here.mean[j] - there.mean[j];
-        let lean = HALF_LOG2_E * (0..d).map(|j| start_precision[i][j] * apart(j)).sum::<f64>();
+        let mut lean = 0.0;
+        for j in 0..d {
+            lean += HALF_LOG2_E * start_precision[i][j] * apart(j);
+        }
         term.slope[i] = 2.0 * lean;
         term.constant += lean * apart(i);
         for j in i..d {
@@ -136,12 +160,16 @@ fn inverse(mut matrix: Matrix, d: usize) -> Option<(Matrix, f64)> {
         }
         let over = 1.0 / pivot;
         matrix[k][k] = 1.0;
-        matrix[k][..d].iter_mut().for_each(|x| *x *= over);
+        for j in 0..d {
+            matrix[k][j] *= over;
+        }
         let row = matrix[k];
-        for (i, other) in matrix.iter_mut().enumerate().take(d) {
+        for i in 0..d {
             if i != k {
-                let factor = std::mem::replace(&mut other[k], 0.0);
-                other[..d].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * y);
+                let factor = std::mem::replace(&mut matrix[i][k], 0.0);
+                for j in 0..d {
+                    matrix[i][j] -= factor * row[j];
+                }
             }
         }
     }
