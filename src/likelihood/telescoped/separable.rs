@@ -357,6 +357,19 @@ impl Spread {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let (s, length) = (table.states, end.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
+        // the position alone is the rule, and needs no room for anything else
+        if length == 1 {
+            let mut variance = Lanes::load(&rows[s + 1]);
+            for m in 0..s {
+                let mut product = zero;
+                for j in 0..s {
+                    product = product + Lanes::load(&rows[j]) * Lanes::splat(filter.covariance[j][m]);
+                }
+                variance = variance + product * Lanes::load(&rows[m]);
+            }
+            (self.density, self.variance) = (one, variance);
+            return;
+        }
         let mut covariance = [[zero; MOST]; MOST];
         // where the rows before begin
         let mut places = [0; MOST];
@@ -398,6 +411,13 @@ impl Spread {
     pub fn ends(&self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Ends {
         let (s, length) = (table.states, end.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
+        if length == 1 {
+            let mut mean = Lanes::load(&rows[s]);
+            for j in 0..s {
+                mean = mean + Lanes::load(&rows[j]) * Lanes::splat(filter.mean[j]);
+            }
+            return Ends { mean, variance: self.variance, density: self.density, exponent: Lanes::splat(0.0) };
+        }
         let mut mean = [Lanes::splat(0.0); MOST];
         let mut place = 0;
         for i in 0..length {
