@@ -2,7 +2,8 @@
 
 use super::classes::{End, Nodes};
 use super::coupled::{self, Coupled};
-use super::separable::{Axes, AxisEnd, MOST, NodeTable};
+use super::ends::{AxisEnd, NodeTable};
+use super::separable::{Axes, MOST};
 use super::terms::{Sight, Work};
 use super::whole::coupled_of;
 use crate::math::gaussian::Gaussian;

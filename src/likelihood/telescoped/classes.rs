@@ -1,8 +1,9 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
 use super::IN_RANGE;
+use super::ends::AxisEnd;
 use super::leaves::{Leaf, MANY, arrange, leaves};
-use super::separable::{AxisEnd, MOST};
+use super::separable::MOST;
 use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::plan::Plan;
 use crate::math::lanes::{Block, WIDTH};

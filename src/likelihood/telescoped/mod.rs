@@ -11,8 +11,9 @@
 //! | part | what |
 //! |---|---|
 //! | `candidate` | one noise candidate: a filter, by axis or whole |
-//! | `separable` | the filters, `m_n, V_n, u_n, U_n` where axes do not mix |
-//! | `coupled` | the same where they do |
+//! | `separable` | the filters where axes do not mix |
+//! | `ends` | `m_n, V_n, u_n, U_n` there |
+//! | `coupled` | both where they do |
 //! | `classes` | the destinations in flat arrays |
 //! | `terms` | the coefficients |
 //! | `leaves` | what can add nothing, of very many destinations |
@@ -24,6 +25,7 @@
 mod candidate;
 pub(crate) mod classes;
 pub(crate) mod coupled;
+pub(crate) mod ends;
 pub(crate) mod leaves;
 pub(crate) mod separable;
 pub(crate) mod terms;

@@ -9,8 +9,9 @@
 //! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
 
 use super::classes::{Class, Classes};
+use super::ends::{AxisEnd, NodeTable, Spread};
 use super::leaves::Bounds;
-use super::separable::{Axes, AxisEnd, MOST, NodeTable, Spread};
+use super::separable::{Axes, MOST};
 use crate::math::lanes::{Block, Lanes, WIDTH};
 use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
 use crate::model::destination::Destinations;
