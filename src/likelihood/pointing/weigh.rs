@@ -106,9 +106,9 @@ fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [B
         // no loops over the axes: at the level for size they would stay loops
         let (x, y) = (offset(places, 0, i, now.start), offset(places, 1, i, now.start));
         let third = if three { Some(offset(places, 2, i, now.start)) } else { None };
-        let mut square = x * x + y * y;
+        let mut square = squared(x) + squared(y);
         if let Some(z) = third {
-            square = square + z * z;
+            square = square + squared(z);
         }
         let distance = square.at_least(s(f64::MIN_POSITIVE)).sqrt();
         // one division for both one over the distance and distance / (distance^2 + 1)
@@ -119,21 +119,21 @@ fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [B
             Some([xx, xy, yy, xz, yz, zz]) => [s(*xx), s(*xy), s(*yy), s(*xz), s(*yz), s(*zz)],
             None => [own(places, 0, i), zero, own(places, 1, i), zero, zero, own(places, 2, i)],
         };
-        let (a, b) = (x * x, y * y);
-        let (sum, difference) = ((x + s(way[0]), y + s(way[1])), (x - s(way[0]), y - s(way[1])));
-        let mut along = sum.0 * sum.0 + sum.1 * sum.1;
-        let mut opposite = difference.0 * difference.0 + difference.1 * difference.1;
-        let mixed = xy * x * y;
+        // the squared lengths of the sum of two unit vectors and of their difference
+        let mut sum = squared(x + s(way[0])) + squared(y + s(way[1]));
+        let mut difference = squared(x - s(way[0])) + squared(y - s(way[1]));
+        // `(trace S - u'S u) / (d - 1)` along the unit vector `u`, multiplied out, so that nothing large is subtracted
+        let (a, b, mixed) = (squared(x), squared(y), xy * x * y);
         let mut across = xx * b + yy * a - (mixed + mixed);
         if let Some(z) = third {
             let z = z * scale;
-            let (sum, difference) = (z + s(way[2]), z - s(way[2]));
-            along = along + sum * sum;
-            opposite = opposite + difference * difference;
+            sum = sum + squared(z + s(way[2]));
+            difference = difference + squared(z - s(way[2]));
             let mixed = z * (xz * x + yz * y);
-            across = s(0.5) * (across + (xx + yy) * (z * z) + zz * (a + b) - (mixed + mixed));
+            across = s(0.5) * (across + (xx + yy) * squared(z) + zz * (a + b) - (mixed + mixed));
         }
-        let angle = Lanes::squared_angle(along, opposite);
+        let angle = Lanes::squared_angle(sum, difference);
+        // what is at the start itself lies in no direction
         let nowhere = (one - square * s(f64::MIN_POSITIVE.recip())).at_least(zero);
         let shrunk = square * over;
         let variance = across * shrunk * shrunk + nowhere * s(NO_DIRECTION);
@@ -148,6 +148,11 @@ fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [B
         whole.store(exponent);
     }
     (most.most(), doubtful.most())
+}
+
+#[inline(always)]
+fn squared(x: Lanes) -> Lanes {
+    x * x
 }
 
 #[inline(always)]
