@@ -1,6 +1,8 @@
 // What predictors weigh in the memory of the WebAssembly, in a process of its own. Started by scripts/bench.mjs with the file
 // to write the numbers to.
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import { initSync, pointerScenario, Predictor } from "whither";
 import { INTERVAL, scenario, sweep } from "./scenarios.mjs";
 import { step } from "./suite.mjs";
@@ -44,13 +46,25 @@ function weigh(make, few, many) {
 
 function weighMethod(method) {
   console.log(`memory: ${method}`);
-  const given = (count) => scenario({ method, count }, pointerScenario);
-  const [small, middle, large] = [21, 1000, 3000].map(given);
+  const small = scenario({ method, count: 21 }, pointerScenario);
   const predictor = weigh(() => running(small), 200, 1000);
   const original = running(small);
   const clone = weigh(() => original.clone(), 200, 1000);
-  const each = [middle, large].map((one) => weigh(() => running(one), 5, 15));
-  return { predictor, clone, destination: (each[1] - each[0]) / 2000 };
+  const destination = (sizes, from, to) => apart(["--destination", method, sizes, from, to]);
+  const one = destination("one", 1000, 3000);
+  return { predictor, clone, destination: one, own: destination("own", 1000, 3000), many: destination("one", 5000, 7000) };
+}
+
+/** The number that this file writes when it is asked in a process of its own, whose memory has no gaps yet. */
+function apart(args) {
+  return Number(execFileSync(process.execPath, [fileURLToPath(import.meta.url), ...args.map(String)], { encoding: "utf8" }));
+}
+
+/** Bytes that one more destination takes beside `from` to `to` others. */
+function weighDestination([method, sizes, from, to]) {
+  const given = [from, to].map((count) => scenario({ method, sizes, count: Number(count) }, pointerScenario));
+  const each = given.map((one) => weigh(() => running(one), 60, 30));
+  return (each[1] - each[0]) / (to - from);
 }
 
 /** Bytes of the memory after few observations and after many. */
@@ -65,4 +79,5 @@ function stays(method) {
 
 const methods = ["pseudoObservation", "pointing"];
 const each = (measure) => Object.fromEntries(methods.map((method) => [method, measure(method)]));
-writeFileSync(file, JSON.stringify({ weights: each(weighMethod), growth: each(stays) }));
+if (file === "--destination") console.log(weighDestination(process.argv.slice(3)));
+else writeFileSync(file, JSON.stringify({ weights: each(weighMethod), growth: each(stays) }));

@@ -171,6 +171,8 @@ function showMemory({ weights, growth }) {
       row("a predictor of 21", (method) => weights[method].predictor, 16_000),
       row("a clone of it", (method) => weights[method].clone),
       row("one more destination", (method) => weights[method].destination, 64),
+      row("one more, each of its own size", (method) => weights[method].own),
+      row("one more beyond 5000", (method) => weights[method].many),
       row(`growth over ${count(observations)} observations`, (method) => growth[method].grown),
     ],
   );
