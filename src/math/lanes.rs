@@ -15,7 +15,8 @@ use plain::Vector;
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 use simd128::Vector;
 
-/// How many numbers there are in [`Lanes`]: two vectors of the WebAssembly. With four of them, registers run out.
+/// How many numbers there are in [`Lanes`]: two vectors of the WebAssembly. What four of them would
+/// need at once no registers hold, and the code is twice as long; one would read the terms of a sum twice as often.
 pub const WIDTH: usize = 4;
 
 /// Four numbers in memory; flat arrays are lists of them.

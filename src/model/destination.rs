@@ -183,7 +183,7 @@ impl Destinations {
             let destination = Destination::read(&item, dimensions, states)?;
             let (kind, is_new) = known.of(&destination.kind.fingerprint());
             if is_new {
-                all.kinds.found(&destination.kind);
+                all.kinds.add(&destination.kind);
             }
             all.push(&destination, kind);
         }

@@ -112,7 +112,8 @@ fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [B
         }
         let distance = square.at_least(s(f64::MIN_POSITIVE)).sqrt();
         // one division for both one over the distance and distance / (distance^2 + 1)
-        let (further, over) = (square + one, one / (distance * (square + one)));
+        let further = square + one;
+        let over = one / (distance * further);
         let scale = further * over;
         let (x, y) = (x * scale, y * scale);
         let [xx, xy, yy, xz, yz, zz] = match &class.covariance {

@@ -112,40 +112,33 @@ impl Spread {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let (s, length) = (table.states, end.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
-        // the position alone is the rule, and needs no room for anything else
+        let mut variance = Lanes::load(&rows[s + 1]);
+        for m in 0..s {
+            variance = variance + plus(zero, rows, &filter.covariance[m], s) * Lanes::load(&rows[m]);
+        }
+        (self.density, self.variance) = (one, variance);
+        // as a rule destinations name the position alone
         if length == 1 {
-            let mut variance = Lanes::load(&rows[s + 1]);
-            for m in 0..s {
-                let mut product = zero;
-                for j in 0..s {
-                    product = product + Lanes::load(&rows[j]) * Lanes::splat(filter.covariance[j][m]);
-                }
-                variance = variance + product * Lanes::load(&rows[m]);
-            }
-            (self.density, self.variance) = (one, variance);
             return;
         }
         let mut covariance = [[zero; MOST]; MOST];
+        covariance[0][0] = variance;
         // where the rows before begin
         let mut places = [0; MOST];
-        let mut place = 0;
-        for i in 0..length {
+        let mut place = s + 2;
+        for i in 1..length {
             places[i] = place;
             for j in 0..i + 1 {
                 covariance[i][j] = Lanes::load(&rows[place + s + 1 + j]) + Lanes::splat(end.covariance[i][j]);
             }
             for m in 0..s {
-                let mut product = zero;
-                for j in 0..s {
-                    product = product + Lanes::load(&rows[place + j]) * Lanes::splat(filter.covariance[j][m]);
-                }
+                let product = plus(zero, &rows[place..], &filter.covariance[m], s);
                 for j in 0..i + 1 {
                     covariance[i][j] = covariance[i][j] + product * Lanes::load(&rows[places[j] + m]);
                 }
             }
             place += s + 2 + i;
         }
-        self.density = one;
         for r in (1..length).rev() {
             let inverse = one / covariance[r][r];
             self.inverse[r] = inverse;
@@ -166,24 +159,17 @@ impl Spread {
     pub fn ends(&self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Ends {
         let (s, length) = (table.states, end.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
+        let first = plus(Lanes::load(&rows[s]), rows, &filter.mean, s);
+        let mut exponent = Lanes::splat(0.0);
         if length == 1 {
-            let mut mean = Lanes::load(&rows[s]);
-            for j in 0..s {
-                mean = mean + Lanes::load(&rows[j]) * Lanes::splat(filter.mean[j]);
-            }
-            return Ends { mean, variance: self.variance, density: self.density, exponent: Lanes::splat(0.0) };
+            return Ends { mean: first, variance: self.variance, density: self.density, exponent };
         }
-        let mut mean = [Lanes::splat(0.0); MOST];
-        let mut place = 0;
-        for i in 0..length {
-            let mut entry = Lanes::load(&rows[place + s]);
-            for j in 0..s {
-                entry = entry + Lanes::load(&rows[place + j]) * Lanes::splat(filter.mean[j]);
-            }
-            mean[i] = entry;
+        let mut mean = [first; MOST];
+        let mut place = s + 2;
+        for i in 1..length {
+            mean[i] = plus(Lanes::load(&rows[place + s]), &rows[place..], &filter.mean, s);
             place += s + 2 + i;
         }
-        let mut exponent = Lanes::splat(0.0);
         for r in (1..length).rev() {
             let error = Lanes::splat(end.mean[r]) - mean[r];
             exponent = exponent - Lanes::splat(HALF_LOG2_E) * (error * error * self.inverse[r]);
@@ -193,4 +179,13 @@ impl Spread {
         }
         Ends { mean: mean[0], variance: self.variance, density: self.density, exponent }
     }
+}
+
+/// The first `s` entries of a row times as many numbers, added to `sum`.
+#[inline(always)]
+fn plus<const N: usize>(mut sum: Lanes, row: &[Block], numbers: &[f64; N], s: usize) -> Lanes {
+    for j in 0..s {
+        sum = sum + Lanes::load(&row[j]) * Lanes::splat(numbers[j]);
+    }
+    sum
 }

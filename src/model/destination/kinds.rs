@@ -23,7 +23,7 @@ impl Kinds {
     }
 
     /// Puts one that is not there yet behind the others.
-    pub fn found(&mut self, kind: &Kind) {
+    pub fn add(&mut self, kind: &Kind) {
         self.list.push(kind.clone());
     }
 
@@ -73,7 +73,7 @@ impl Kinds {
             self.list[free] = kind.clone();
             return free;
         }
-        self.found(kind);
+        self.add(kind);
         self.list.len() - 1
     }
 
@@ -85,7 +85,7 @@ impl Kinds {
         for i in 0..self.count {
             let before = self.of(i);
             let number = *numbers[before].get_or_insert_with(|| {
-                renumbered.found(&self.list[before]);
+                renumbered.add(&self.list[before]);
                 renumbered.list.len() - 1
             });
             renumbered.push(number);
@@ -146,7 +146,7 @@ mod tests {
         assert!(kinds.list().len() <= 5, "free places are taken again");
         // one that has the first kind to itself gives it up without a second
         let mut alone = Kinds::default();
-        alone.found(&kind(1));
+        alone.add(&kind(1));
         alone.push(0);
         alone.replace(0, &kind(2));
         assert_eq!((alone.list(), alone.of(0)), (&[kind(2)][..], 0));
