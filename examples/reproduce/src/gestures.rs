@@ -20,7 +20,7 @@ pub fn predictor_of(targets: &[[f64; 4]], method: &str, noise: f64) -> Scenario 
         "motion": { "type": "constantVelocity", "dimensions": 3, "noise": noise },
         "observation": { "noise": 0.003 },
         "initial": { "velocity": 1 },
-        "arrival": { "type": "uniform", "from": 0.2, "to": 2.0 },
+        "arrival": { "type": "uniform", "from": 0.4, "to": 1.6 },
         "quadrature": { "rule": "simpson", "points": 15 },
         "method": method,
         "destinations": targets.iter().enumerate().map(|(i, target)| json!({
@@ -30,10 +30,10 @@ pub fn predictor_of(targets: &[[f64; 4]], method: &str, noise: f64) -> Scenario 
 }
 
 /// What was assumed of the predictor.
-pub const PREDICTOR: &str = "The predictor: metres and seconds, an endpoint of position only with the target's size, an arrival time of U(0.2 s, 2 s) after the first observation with Simpson's rule and q = 15, observations with a deviation of 3 mm, 1 m/s for the velocity at the start.";
+pub const PREDICTOR: &str = "The predictor: metres and seconds, an endpoint of position only with the target's size, an arrival time of U(0.4 s, 1.6 s) after the first observation with Simpson's rule and q = 15, observations with a deviation of 3 mm, 1 m/s for the velocity at the start.";
 
 /// What was assumed of the simulated gestures.
-pub const SIMULATION: &str = "Simulated gestures at 50 Hz: from a hand at about 0.45 m in front of the screen, minimum jerk to a first endpoint that falls short by 4% of the way and misses by 6% along and 2.5% across it, a second one to the target from three quarters of the time on, a sideways bow of 3%, tremor at 8 to 11 Hz (0.7 mm), road vibration that resonates at 4 Hz (2 mm), tracker noise of 2 mm; their duration by Fitts's law, 0.3 s + 0.12 s log2(D/W + 1), with 20% spread. 21 icons of 24 mm, 7 by 3, 40 mm apart.";
+pub const SIMULATION: &str = "Simulated gestures at 50 Hz: from a hand at about 0.45 m in front of the screen, minimum jerk to a first endpoint, in 70% of the time, that falls short by 4% of the way and misses by 6% along and 2.5% across it, a second one to the target from 55% of the time on, a sideways bow of 3%, tremor at 8 to 11 Hz (0.7 mm), road vibration that resonates at 4 Hz (2 mm), tracker noise of 2 mm; their duration by Fitts's law, 0.3 s + 0.12 s log2(D/W + 1), with 20% spread. 21 icons of 24 mm, 7 by 3, 40 mm apart.";
 
 /// The icons on the dashboard's screen, 7 by 3, in the plane z = 0.
 pub fn icons() -> Vec<[f64; 4]> {
@@ -72,8 +72,8 @@ pub fn gesture(start: Vector3<f64>, targets: &[[f64; 4]], truth: usize, random: 
     let observed = (0..=samples).map(|k| {
         let t = k as f64 / RATE;
         let path = start
-            + (first_end - start) * minimum_jerk(t / (0.85 * duration))
-            + (end - first_end) * minimum_jerk((t / duration - 0.75) / 0.25)
+            + (first_end - start) * minimum_jerk(t / (0.7 * duration))
+            + (end - first_end) * minimum_jerk((t / duration - 0.55) / 0.45)
             + bow * (PI * (t / duration).min(1.0)).sin();
         let hand = Vector3::from_fn(|i, _| 0.0007 * (TAU * tremor[i].0 * t + tremor[i].1).sin());
         let seen = path + hand + shake.component_mul(&vibration.next(random)) + vector(random, 0.002);

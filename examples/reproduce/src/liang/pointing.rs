@@ -37,7 +37,7 @@ pub fn work(_effort: Effort) -> u64 {
 pub fn exhibits(effort: Effort, progress: &ProgressBar) -> Vec<Exhibit> {
     progress.set_message("Liang: pointing gestures");
     let mut exhibits = vec![exhibit(
-        "95 freehand pointing gestures in a car, 21 icons: simulated",
+        "Freehand pointing gestures in a car, 21 icons: simulated",
         &gestures::simulated(simulated(effort), 95),
         vec![
             "The recordings are not public, so the gestures here are simulated.".into(),
