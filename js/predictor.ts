@@ -128,7 +128,7 @@ export class Predictor {
 
   /**
    * The probability of each destination, in the order of {@link destinations}. They sum to `1 - none`; before the first
-   * observation they are the prior. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together have
+   * observation, and after it alone unless its evidence counts (`initial.evidence`), they are the prior. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together have
    * less than 1e-14.
    *
    * @param into - Where to write them, so that nothing is allocated: as long as there are destinations.
@@ -155,8 +155,8 @@ export class Predictor {
   }
 
   /**
-   * `log p(y_2:k | y_1, D_i)` of each destination, marginalised over the arrival time, in the order of {@link destinations}.
-   * A destination that can no longer be reached in time has `-Infinity`.
+   * `log p(y_2:k | y_1, D_i)` of each destination, marginalised over the arrival time, in the order of {@link destinations};
+   * `log p(y_1:k | D_i)` where the first observation's evidence counts (`initial.evidence`). A destination that can no longer be reached in time has `-Infinity`.
    *
    * @param into - Where to write them: as long as there are destinations.
    * @returns `into`, or a new array.
@@ -206,7 +206,13 @@ export class Predictor {
     return this.#live().ids();
   }
 
-  /** The state now, given that the object goes to one of the destinations; null before the first observation. */
+  /**
+   * The state now, given that the object goes to one of the destinations: by the method's own family, Liang (10) for
+   * `pseudoObservation`, `algorithm1`, `algorithm2` and `singleFilterApproximate`, the bridged posterior for `bridging` and
+   * `singleFilter`; mixed over destinations and arrival times, mean and covariance by moment matching.
+   *
+   * @returns null before the first observation.
+   */
   state(): Gaussian | null {
     const numbers = this.#live().state();
     return numbers ? gaussian(numbers) : null;
@@ -219,7 +225,8 @@ export class Predictor {
   }
 
   /**
-   * The state at a later time, given that the object goes to one of the destinations and stays there.
+   * The state at a later time, given that the object goes to one of the destinations and stays there; by the method's own family,
+   * as {@link state}.
    *
    * @param time - Seconds on the clock of the observations, at least the last observation's.
    * @returns null before the first observation.

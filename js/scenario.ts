@@ -192,6 +192,15 @@ export type Initial =
       readonly mean: Vector;
       /** `s` by `s`. */
       readonly covariance: Matrix;
+      /**
+       * Whether the first observation counts as evidence, `p(y_1 | D_i, T)` in Liang (5): the likelihoods are then those of `y_1:k`, and
+       * a start near a destination speaks for it, from the first observation on. With `bridging` and `singleFilter`, whose endpoint
+       * is independent of the start, it speaks for none. By default the likelihoods are those of `y_2:k` given `y_1`: where a
+       * movement begins is mostly chance, and a density that is flat in position has no evidence to give.
+       *
+       * @defaultValue false
+       */
+      readonly evidence?: boolean | undefined;
     }
   | {
       /** The deviation of the velocity, one number or one for each axis. */

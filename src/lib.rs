@@ -66,7 +66,7 @@
 //! | track | one recorded movement |
 //! | predictor | the whole engine, as in the papers (in Stone Soup the word means the time update) |
 //! | prediction error | an observation less its prediction; its density is Liang's PED |
-//! | evidence | the density of what was observed, `p(y_2:k given y_1)` |
+//! | evidence | the density of what was observed, `p(y_2:k given y_1)`, or `p(y_1:k)` where the scenario counts the first observation |
 //! | posterior | what is believed after the observations |
 //!
 //! # Where each equation is
@@ -82,11 +82,12 @@
 //! | Liang (3) | posterior of the destinations | [`posterior::Posterior::update`] |
 //! | Liang (4) | the pseudo-observation of the endpoint | [`model::destination`] |
 //! | Liang (5) | likelihood given the arrival time | [`likelihood`] |
+//! | Liang (5), `p(y_1 given D, T)` | the first observation's evidence | [`model::initial::Initial::counted`] |
 //! | Liang (6), Ardeshiri (17) | sum over the arrival time | [`model::arrival`], [`math::quadrature`] |
 //! | Liang (7)-(11) | Algorithm 1 | [`likelihood::algorithm1`] |
 //! | Liang (8) | Kalman prediction | [`math::kalman::Filter::predict`] |
 //! | Liang (9) | the endpoint seen from a state before it | [`model::endpoint`] |
-//! | Liang (10), mixed | state, forecast, paths | [`posterior::state`] |
+//! | Liang (10), or the bridged posterior, mixed | state, forecast, paths | [`posterior::state`] |
 //! | Liang (12)-(13) | Algorithm 2 | [`likelihood::algorithm2`] |
 //! | product of Liang (11), telescoped | the default | [`likelihood::pseudo_observation`] |
 //! | Liang's references 12 to 14 | original bridging distributions | [`likelihood::bridging`] |

@@ -224,7 +224,7 @@ impl Predictor {
     }
 
     /// `p(D_i | y_1:k)` for each destination, in order, Liang (3); they sum to `1 - none`. Before the first observation, and
-    /// after it alone, they are the priors. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together
+    /// after it alone unless its evidence counts (`initial.evidence`), they are the priors. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together
     /// have less than 1e-14.
     pub fn probabilities(&mut self) -> &[f64] {
         self.refresh();
@@ -246,7 +246,8 @@ impl Predictor {
         Some(Best { index, id: self.destinations.id(index).to_owned(), probability })
     }
 
-    /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates.
+    /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates; `log p(y_1:k | D_i)`
+    /// where the first observation's evidence counts (`initial.evidence`).
     pub fn log_likelihoods(&mut self) -> &[f64] {
         self.refresh();
         match &mut self.track {
@@ -285,7 +286,9 @@ impl Predictor {
         self.track.as_mut()?.remaining(&self.scenario, &mut self.posterior, &self.destinations)
     }
 
-    /// The state now, given that the object is going to one of the destinations; none before the first observation.
+    /// The state now, given that the object is going to one of the destinations; none before the first observation. Each method
+    /// answers by its own family: Liang (10) where the endpoint is a pseudo-observation (and for `singleFilterApproximate`, whose
+    /// integrand is the same), the bridged posterior for `bridging` and `singleFilter`.
     pub fn state(&mut self) -> Option<Gaussian> {
         self.state_after(0.0, None)
     }
@@ -296,7 +299,8 @@ impl Predictor {
         self.track.as_mut()?.initial_state(&self.scenario, &mut self.posterior, &self.destinations)
     }
 
-    /// The state at `time`, which is the last observation's or later; none before the first observation.
+    /// The state at `time`, which is the last observation's or later, by the method's own family as [`Predictor::state`]; none
+    /// before the first observation.
     ///
     /// # Errors
     /// `not-finite`, `out-of-range`.

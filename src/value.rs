@@ -242,6 +242,17 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// True or false.
+    ///
+    /// # Errors
+    /// `wrong-type`.
+    pub fn boolean(&self) -> Result<bool> {
+        match self.value {
+            Value::Bool(value) => Ok(*value),
+            _ => Err(self.error(Code::WrongType, "must be true or false")),
+        }
+    }
+
     /// A number above zero whose square and whose inverse are within reach: from 1e-50 to 1e50.
     ///
     /// # Errors

@@ -20,11 +20,13 @@
 //! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
 //! ```
 
+use super::states::{StateQuery, States};
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
 use crate::math::gaussian::{condition, propagate};
 use crate::math::product::apply;
 use crate::model::bridge::Bridge;
+use crate::model::motion::Transition;
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 
@@ -41,6 +43,38 @@ pub(crate) struct Bridging {
 impl Bridging {
     fn stride(scene: &Scene<'_>) -> usize {
         2 * scene.filter.states
+    }
+}
+
+/// The bridged transition of `[x_k; z]`: `z` stays, and the state moves towards it.
+struct Onward<'a> {
+    bridge: Bridge,
+    step: &'a Transition,
+    rest: &'a Transition,
+    /// `s + l` square.
+    matrix: DMatrix<f64>,
+    noise: DMatrix<f64>,
+}
+
+impl<'a> Onward<'a> {
+    /// Over `step`, with `rest` left to the arrival, towards the first `l` components there; none where they are determined.
+    fn new(step: &'a Transition, rest: &'a Transition, l: usize) -> Option<Self> {
+        let bridge = Bridge::new(&step.transition, &step.noise, &rest.transition, &rest.noise, l)?;
+        let s = step.offset.len();
+        let mut matrix = DMatrix::identity(s + l, s + l);
+        matrix.view_mut((0, 0), (s, s)).copy_from(&bridge.previous);
+        matrix.view_mut((0, s), (s, l)).copy_from(&bridge.destination);
+        let mut noise = DMatrix::zeros(s + l, s + l);
+        noise.view_mut((0, 0), (s, s)).copy_from(&bridge.covariance);
+        Some(Self { bridge, step, rest, matrix, noise })
+    }
+
+    /// The mean of `[x_k; z]` after the step, for the destination around `center`.
+    fn mean(&self, before: &DVector<f64>, center: &[f64]) -> DVector<f64> {
+        let mut mean = apply(&self.matrix, before);
+        let offset = self.bridge.offset(&self.step.constant(center), &self.rest.constant(center));
+        mean.rows_mut(0, offset.len()).zip_apply(&offset, |x, o| *x += o);
+        mean
     }
 }
 
@@ -68,17 +102,11 @@ impl Likelihood for Bridging {
         let (s, stride) = (scene.filter.states, Self::stride(scene));
         let m = step.measurement.value.len();
         for node in scene.nodes_ahead(scene.elapsed) {
-            let l = node.covariance.nrows();
             let rest = scene.motion.transition(node.remaining);
-            let (h, r) = (step.transition, &rest);
-            let Some(bridge) = Bridge::new(&h.transition, &h.noise, &r.transition, &r.noise, l) else { continue };
-            let mut onward = DMatrix::identity(s + l, s + l);
-            onward.view_mut((0, 0), (s, s)).copy_from(&bridge.previous);
-            onward.view_mut((0, s), (s, l)).copy_from(&bridge.destination);
-            let mut noise = DMatrix::zeros(s + l, s + l);
-            noise.view_mut((0, 0), (s, s)).copy_from(&bridge.covariance);
-            let predicted = propagate(&onward, &self.covariances[node.number], &noise);
-            let mut observation = DMatrix::zeros(m, s + l);
+            let Some(onward) = Onward::new(step.transition, &rest, node.covariance.nrows()) else { continue };
+            let size = onward.matrix.nrows();
+            let predicted = propagate(&onward.matrix, &self.covariances[node.number], &onward.noise);
+            let mut observation = DMatrix::zeros(m, size);
             observation.columns_mut(0, s).copy_from(&step.measurement.matrix);
             let correction = if m == 0 {
                 None
@@ -90,16 +118,14 @@ impl Likelihood for Bridging {
                 let i = i as usize;
                 let row = scene.plan.rows[i] + node.index;
                 let place = row * stride;
-                let mut mean = apply(&onward, &DVector::from_column_slice(&self.means[place..place + s + l]));
-                let center = scene.destinations.center(i);
-                let offset = bridge.offset(&h.constant(&center), &r.constant(&center));
-                mean.rows_mut(0, s).zip_apply(&offset, |x, o| *x += o);
+                let before = DVector::from_column_slice(&self.means[place..place + size]);
+                let mut mean = onward.mean(&before, &scene.destinations.center(i));
                 if let Some(correction) = &correction {
                     let error = &step.measurement.value - apply(&observation, &mean);
                     self.table[row] += correction.prediction_error.log_density(&error);
                     mean += apply(&correction.gain, &error);
                 }
-                self.means[place..place + s + l].copy_from_slice(mean.as_slice());
+                self.means[place..place + size].copy_from_slice(mean.as_slice());
             }
             self.covariances[node.number] = correction.map_or(predicted, |correction| correction.covariance());
         }
@@ -107,6 +133,25 @@ impl Likelihood for Bridging {
 
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {
         scene.copy_nodes_ahead(&self.table, table);
+    }
+
+    /// The posterior of `[x_k; z]`, moved on by the bridged transition.
+    fn states(&self, query: &StateQuery<'_>) -> Option<States> {
+        let (scene, node) = (query.believed, query.node);
+        let (s, stride) = (scene.filter.states, Self::stride(&scene));
+        let (onward, left) = query.onward(&scene);
+        let (step, rest) = (scene.motion.transition(onward), scene.motion.transition(left));
+        let onward = Onward::new(&step, &rest, node.covariance.nrows())?;
+        let predicted = propagate(&onward.matrix, &self.covariances[node.number], &onward.noise);
+        let mean = |&i: &usize| {
+            let place = (scene.plan.rows[i] + node.index) * stride;
+            let before = DVector::from_column_slice(&self.means[place..place + onward.matrix.nrows()]);
+            onward.mean(&before, &scene.destinations.center(i)).rows(0, s).into_owned()
+        };
+        Some(States {
+            means: query.members.iter().map(mean).collect(),
+            covariance: predicted.view((0, 0), (s, s)).into_owned(),
+        })
     }
 
     fn boxed(&self) -> Box<dyn Likelihood> {

@@ -4,7 +4,8 @@
 //! `p(y_2:k | y_1, D_i, T) = sum_c w_c p(y_2:k | y_1, D_i, T, c)`.
 
 use super::plan::Plan;
-use super::{Likelihood, Method, Scene, Step};
+use super::states::{StateQuery, States};
+use super::{Likelihood, Method, NodeOfGroup, Scene, Step};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement, TimeUpdate};
@@ -78,8 +79,10 @@ impl Clone for World {
 pub struct Movement {
     /// The arrival nodes.
     pub plan: Plan,
-    /// `p(x_1 | y_1)`.
+    /// `p(x_1 | y_1)`; `p(x_1)` where the first observation's evidence counts.
     pub first: Gaussian,
+    /// Whether the first observation's evidence counts: likelihoods are of `y_1:k`, not of `y_2:k` given `y_1`.
+    pub first_counts: bool,
     /// One for each noise candidate.
     pub worlds: Vec<World>,
     /// `t_k - t_1`.
@@ -99,7 +102,8 @@ impl Movement {
             filter: Filter::new(&first, columns),
             engine: method.engine(),
         });
-        let mut movement = Self { plan, worlds: worlds.collect(), first, elapsed: 0.0, observations: 1 };
+        let mut movement =
+            Self { plan, worlds: worlds.collect(), first, first_counts: false, elapsed: 0.0, observations: 1 };
         movement
             .each_engine(destinations, |engine, scene| {
                 engine.begin(scene);
@@ -107,6 +111,52 @@ impl Movement {
             })
             .unwrap_or_default();
         movement
+    }
+
+    /// The movement as it is before its first observation, which [`Movement::advance`] then takes in, no time having passed:
+    /// what it began with is `p(x_1)`, and `p(y_1 | D_i, T)` of Liang (5) counts.
+    #[must_use]
+    pub fn before_first_observation(self) -> Self {
+        Self { first_counts: true, observations: 0, ..self }
+    }
+
+    /// Whether something has been observed that counts as evidence.
+    fn has_evidence(&self) -> bool {
+        self.observations > u64::from(!self.first_counts)
+    }
+
+    /// Acts on every (group, node) pair that has not passed.
+    pub(crate) fn each_node(&self, destinations: &Destinations, mut act: impl FnMut(&NodeOfGroup<'_>)) {
+        let Some(world) = self.worlds.first() else { return };
+        let scene = self.scene(world, destinations);
+        scene.nodes_ahead(self.elapsed).for_each(|node| act(&node));
+    }
+
+    /// The states `later` seconds after `now` under noise candidate `c`, given `node` and each of `members`; the likelihoods
+    /// are those of this movement.
+    pub(crate) fn states(
+        &self,
+        now: &Self,
+        destinations: &Destinations,
+        c: usize,
+        node: &NodeOfGroup<'_>,
+        members: &[usize],
+        later: f64,
+    ) -> Option<States> {
+        let (world, latest) = (self.worlds.get(c)?, now.worlds.get(c)?);
+        let (believed, now) = (self.scene(world, destinations), now.scene(latest, destinations));
+        world.engine.states(&StateQuery { now, believed, node, members, later })
+    }
+
+    fn scene<'a>(&'a self, world: &'a World, destinations: &'a Destinations) -> Scene<'a> {
+        Scene {
+            motion: world.model.as_ref(),
+            destinations,
+            plan: &self.plan,
+            first: &self.first,
+            filter: &world.filter,
+            elapsed: self.elapsed,
+        }
     }
 
     fn each_engine(
@@ -165,24 +215,16 @@ impl Movement {
     pub fn joint(&self, destinations: &Destinations, tables: &mut Vec<Vec<f64>>) {
         let length = self.plan.rows.last().copied().unwrap_or(0);
         tables.resize_with(self.worlds.len(), Vec::new);
-        for (World { log_weight, model, filter, engine }, table) in self.worlds.iter().zip(tables) {
+        for (world, table) in self.worlds.iter().zip(tables) {
             table.clear();
             table.resize(length, 0.0);
-            if self.observations > 1 {
-                let scene = Scene {
-                    motion: model.as_ref(),
-                    destinations,
-                    plan: &self.plan,
-                    first: &self.first,
-                    filter,
-                    elapsed: self.elapsed,
-                };
-                engine.log_likelihoods(&scene, table);
+            if self.has_evidence() {
+                world.engine.log_likelihoods(&self.scene(world, destinations), table);
             }
             for i in 0..self.plan.grid_of.len() {
                 let row = &mut table[self.plan.rows[i]..self.plan.rows[i + 1]];
                 for (value, log_prior) in row.iter_mut().zip(&self.plan.grid(i).log_weights) {
-                    *value += log_weight + log_prior;
+                    *value += world.log_weight + log_prior;
                     if value.is_nan() {
                         *value = f64::NEG_INFINITY;
                     }

@@ -9,7 +9,8 @@
 //! | `singleFilter` | [`single_filter`] | independent endpoint, Ardeshiri (12) |
 //! | `singleFilterApproximate` | [`single_filter`] | Ardeshiri (15), Table 1 |
 //!
-//! Within a family the methods give the same numbers to rounding; the families differ from each other.
+//! Within a family the methods give the same numbers to rounding; the families differ from each other. Each gives the states of its
+//! own family too.
 
 pub mod algorithm1;
 pub mod algorithm2;
@@ -20,6 +21,7 @@ pub mod plan;
 pub mod pointing;
 pub mod pseudo_observation;
 pub mod single_filter;
+pub(crate) mod states;
 pub mod telescoped;
 
 use crate::error::Result;
@@ -31,6 +33,7 @@ use crate::model::motion::{MotionModel, Transition};
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 use plan::{Group, Plan};
+use states::{StateQuery, States};
 use std::fmt;
 
 /// Witness that the methods of the papers are part of this build, the feature `papers`. Without it there is no value of this
@@ -130,7 +133,7 @@ pub(crate) struct Scene<'a> {
     pub destinations: &'a Destinations,
     /// Their arrival nodes.
     pub plan: &'a Plan,
-    /// `p(x_1 | y_1)`.
+    /// `p(x_1 | y_1)`; `p(x_1)` where the first observation's evidence counts.
     pub first: &'a Gaussian,
     /// The Kalman posterior after the latest observation.
     pub filter: &'a Filter,
@@ -162,8 +165,15 @@ pub(crate) trait Likelihood: Send + Sync {
     fn advance(&mut self, _scene: &Scene<'_>, _step: &Step<'_>) {}
 
     /// Writes `log p(y_2:k | y_1, D_i, T_n)` for every destination and node, laid out as [`Plan::rows`] says; minus infinity
-    /// for nodes that have passed. Never called for the first observation, where every method has zero.
+    /// for nodes that have passed. Of `y_1:k` where the first observation's evidence counts; where it does not, never called for
+    /// the first observation.
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]);
+
+    /// The state given a destination and an arrival time, as this engine's family constructs the endpoint; none where it has
+    /// no density there. Asked of the engine of [`StateQuery::believed`].
+    fn states(&self, query: &StateQuery<'_>) -> Option<States> {
+        query.given_pseudo_observation()
+    }
 
     /// A copy of its own.
     fn boxed(&self) -> Box<dyn Likelihood>;

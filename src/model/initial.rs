@@ -23,6 +23,7 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Clone, Debug)]
 pub struct Initial {
     prior: Prior,
+    evidence: bool,
     value: Value,
 }
 
@@ -35,7 +36,7 @@ enum Prior {
 }
 
 impl Initial {
-    /// Reads `{ mean, covariance }`, or `{ velocity?, acceleration? }` for a density that is flat in position. A deviation
+    /// Reads `{ mean, covariance, evidence? }`, or `{ velocity?, acceleration? }` for a density that is flat in position. A deviation
     /// that is left out is taken from `defaults`, one for each component after the position; where that is zero too it is
     /// missing.
     ///
@@ -44,9 +45,10 @@ impl Initial {
     pub fn read(node: Option<Node<'_>>, dimensions: usize, states: usize, defaults: &[f64]) -> Result<Self> {
         let Some(node) = node else {
             check(defaults, "initial")?;
-            return Ok(Self { prior: Prior::Flat(defaults.to_vec()), value: Value::Null });
+            return Ok(Self { prior: Prior::Flat(defaults.to_vec()), evidence: false, value: Value::Null });
         };
-        let fields = node.fields(&["mean", "covariance", "velocity", "acceleration"])?;
+        let fields = node.fields(&["mean", "covariance", "evidence", "velocity", "acceleration"])?;
+        let evidence = fields.optional("evidence").map_or(Ok(false), |evidence| evidence.boolean())?;
         if fields.optional("mean").is_some() || fields.optional("covariance").is_some() {
             for key in ["velocity", "acceleration"] {
                 if let Some(extra) = fields.optional(key) {
@@ -55,7 +57,13 @@ impl Initial {
             }
             let mean = DVector::from_vec(fields.required("mean")?.vector(Some(states))?);
             let covariance = read_covariance(&fields.required("covariance")?, states)?;
-            return Ok(Self { prior: Prior::Given(Gaussian { mean, covariance }), value: node.value().clone() });
+            let prior = Prior::Given(Gaussian { mean, covariance });
+            return Ok(Self { prior, evidence, value: node.value().clone() });
+        }
+        if evidence && let Some(field) = fields.optional("evidence") {
+            let must =
+                "needs mean and covariance: of a density that is flat in position the first observation is no evidence";
+            return Err(field.error(Code::OutOfRange, must));
         }
         let mut deviations = defaults.to_vec();
         for (order, key) in [(1, "velocity"), (2, "acceleration")] {
@@ -67,7 +75,7 @@ impl Initial {
             deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
         }
         check(&deviations, &node.path())?;
-        Ok(Self { prior: Prior::Flat(deviations), value: node.value().clone() })
+        Ok(Self { prior: Prior::Flat(deviations), evidence: false, value: node.value().clone() })
     }
 
     /// The scenario's own form.
@@ -88,6 +96,17 @@ impl Initial {
         match &self.prior {
             Prior::Flat(deviations) => Some(deviations),
             Prior::Given(_) => None,
+        }
+    }
+
+    /// `p(x_1)` where the evidence of the first observation counts, Liang (5)'s `p(y_1 | D_i, T)`: the likelihoods are then those of
+    /// `y_1:k`. By default they are those of `y_2:k` given `y_1`: where a movement begins is mostly chance, and says more about
+    /// the one before it than about where this one goes.
+    #[must_use]
+    pub const fn counted(&self) -> Option<&Gaussian> {
+        match &self.prior {
+            Prior::Given(prior) if self.evidence => Some(prior),
+            _ => None,
         }
     }
 

@@ -1,15 +1,13 @@
-//! The state now, later and at the start, given that the object is going somewhere: Liang (10), mixed.
+//! The state now, later and at the start, given that the object is going somewhere.
 //!
-//! For each destination and node the Kalman posterior is predicted to the time wanted, at most to `T_n` (past it the state
-//! stays as at arrival), conditioned on the pseudo-observation, and mixed with the weights `p(D_i, T_n | y_1:k)`; mean and
-//! covariance by moment matching.
+//! For each destination and node the engine gives the state by its own family (`likelihood::states`): Liang (10) with the
+//! pseudo-observation, the bridged posterior with an endpoint that is independent of the start. They are mixed with the weights
+//! `p(D_i, T_n | y_1:k)`; mean and covariance by moment matching. Past `T_n` the state stays as at arrival.
 
 use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
-use crate::math::gaussian::{Gaussian, condition, propagate, symmetrise};
-use crate::math::product::apply;
+use crate::math::gaussian::{Gaussian, symmetrise};
 use crate::model::destination::Destinations;
-use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
 /// A mixture of Gaussians in the making: each part moves the mean and widens the covariance by its distance from it, so
@@ -56,38 +54,20 @@ impl Posterior {
             node_weights[i] = self.nodes_of(believed, i);
             node_weights[i].iter_mut().for_each(|weight| *weight *= share);
         }
-        for (c, world) in movement.worlds.iter().enumerate() {
-            let covariance = world.filter.current_covariance();
-            let motion = world.model.as_ref();
-            for group in &plan.groups {
-                let nodes = &plan.grids[group.grid].times;
-                let endpoint_noise = &destinations.kinds()[group.kind].covariance();
-                for (n, &time) in nodes.iter().enumerate() {
-                    let place = c * nodes.len() + n;
-                    let weight = |i: usize| node_weights[i].get(place).copied().unwrap_or(0.0);
-                    if group.members.iter().all(|&i| weight(i as usize) == 0.0) {
-                        continue;
-                    }
-                    let ahead = (plan.since_first(group.grid, time, believed.elapsed) - movement.elapsed).max(0.0);
-                    let onward = motion.transition(later.min(ahead));
-                    let rest = Endpoint::after(motion, ahead - later.min(ahead), endpoint_noise.nrows());
-                    let predicted = propagate(&onward.transition, &covariance, &onward.noise);
-                    let noise = &rest.noise + endpoint_noise;
-                    let Some(conditioned) = condition(&predicted, &rest.matrix, &noise) else { continue };
-                    let remaining = conditioned.covariance();
-                    for &i in &group.members {
-                        let i = i as usize;
-                        let weight = weight(i);
-                        if weight == 0.0 {
-                            continue;
-                        }
-                        let center = destinations.center(i);
-                        let mean = apply(&onward.transition, &world.filter.mean(i)) + onward.constant(&center);
-                        let error = rest.error(destinations.mean(i), &mean, &center);
-                        moments.add(weight, mean + apply(&conditioned.gain, &error), &remaining);
-                    }
+        for c in 0..believed.worlds.len() {
+            believed.each_node(destinations, |node| {
+                let place = c * plan.grids[node.group.grid].times.len() + node.index;
+                let weight = |i: usize| node_weights[i].get(place).copied().unwrap_or(0.0);
+                let members: Vec<usize> =
+                    node.group.members.iter().map(|&i| i as usize).filter(|&i| weight(i) != 0.0).collect();
+                if members.is_empty() {
+                    return;
                 }
-            }
+                let Some(states) = believed.states(movement, destinations, c, node, &members, later) else { return };
+                for (i, mean) in members.into_iter().zip(states.means) {
+                    moments.add(weight(i), mean, &states.covariance);
+                }
+            });
         }
         moments.mixture
     }

@@ -78,17 +78,25 @@ impl Track {
     /// Begins at the first observation.
     pub(super) fn begin(scenario: &Scenario, destinations: &Destinations, observed: &Observed<'_>) -> Result<Self> {
         let measurement = scenario.observation.measurement(observed.position, Some(observed.noise))?;
-        let first = scenario.initial.posterior(&scenario.observation, &measurement)?;
-        let start = first.mean.as_slice()[..destinations.dimensions()].to_vec();
+        let posterior = scenario.initial.posterior(&scenario.observation, &measurement)?;
+        let start = posterior.mean.as_slice()[..destinations.dimensions()].to_vec();
+        let prior = scenario.initial.counted();
+        let first = prior.cloned().unwrap_or(posterior);
         let followed = match &scenario.engine {
             Engine::Papers { method, arrival, quadrature, built } => {
                 let plan = Plan::new(destinations, arrival, quadrature, &start);
                 if telescopes(scenario) {
                     let separately = scenario.observation.is_position();
-                    let now = Telescoped::begin(&scenario.motion, destinations, &plan, &first, separately);
+                    let mut now = Telescoped::begin(&scenario.motion, destinations, &plan, &first, separately);
+                    if prior.is_some() {
+                        now = now.before_first_observation();
+                    }
                     Followed::Telescoped { _built: *built, now: Box::new(now), before: None, dense: None }
                 } else {
-                    let movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
+                    let mut movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
+                    if prior.is_some() {
+                        movement = movement.before_first_observation();
+                    }
                     Followed::Papers { _built: *built, movement, frozen: None }
                 }
             }
@@ -98,7 +106,11 @@ impl Track {
                 Followed::Pointing(Box::new(pointing))
             }
         };
-        Ok(Self { first_time: observed.time, time: observed.time, start, followed })
+        let mut track = Self { first_time: observed.time, time: observed.time, start, followed };
+        if prior.is_some() {
+            track.advance(scenario, destinations, observed)?;
+        }
+        Ok(track)
     }
 
     fn elapsed(&self) -> f64 {
@@ -363,7 +375,9 @@ impl Track {
             Engine::Papers { method, arrival, quadrature, built } => {
                 let load = |node: &Node<'_>| {
                     let plan = Plan::new(destinations, arrival, quadrature, &start);
-                    Movement::load(node, &scenario.motion, *method, destinations, plan)
+                    let mut movement = Movement::load(node, &scenario.motion, *method, destinations, plan)?;
+                    movement.first_counts = scenario.initial.counted().is_some();
+                    Ok(movement)
                 };
                 let frozen = fields.optional("frozen").map(|frozen| load(&frozen).map(Box::new)).transpose()?;
                 let movement = load(&saved)?;

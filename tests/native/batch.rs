@@ -1,27 +1,61 @@
-//! The evidence written down from the process: an oracle without filter or recursion.
+//! Likelihoods and states written down from the process: an oracle without filter or recursion.
 
 use crate::problem::{Observed, Problem};
 use crate::support::{numbers, value};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 use serde_json::Value as Json;
-use whither::Scenario;
+use whither::model::motion::MotionModel;
+use whither::{Destination, Gaussian, Scenario};
 
-/// What is seen of the state at one of the times: which, `y`, `G`, `V`.
-type Seen = (usize, DVector<f64>, DMatrix<f64>, DMatrix<f64>);
-
-/// The observations and the endpoint as one Gaussian vector, written down from the process: `x_k = Phi_k x_1 + offsets +
-/// noises`, all covariances by summing over the noises that two states share. No filter, no recursion.
+/// The states at all times, the observations and the endpoint as one Gaussian vector, written down from the process: `x_k =
+/// Phi_k x_1 + offsets + noises`, all covariances by summing over the noises that two states share. No filter, no recursion.
 pub struct Batch<'a> {
     problem: &'a Problem,
     scenario: Scenario,
+    method: &'a str,
 }
 
+/// A linear observation of the stacked states: `y`, `G`, `V`.
+type Linear = (DVector<f64>, DMatrix<f64>, DMatrix<f64>);
+
 impl<'a> Batch<'a> {
-    pub fn new(problem: &'a Problem) -> Self {
-        Self { problem, scenario: Scenario::from_value(&value(&problem.scenario)).unwrap() }
+    pub fn new(problem: &'a Problem, method: &'a str) -> Self {
+        Self { problem, scenario: Scenario::from_value(&value(&problem.scenario)).unwrap(), method }
     }
 
+    /// `log p(y_2:k | y_1, D_i)`, or `log p(y_1:k | D_i)` where the first observation's evidence counts; of the approximate
+    /// method up to what does not depend on the destination.
     pub fn log_likelihood(&self, i: usize) -> f64 {
+        let each: Vec<f64> = self.nodes(i).into_iter().map(|(_, _, log)| log).collect();
+        whither::math::log_sum_exp::log_sum_exp(&each)
+    }
+
+    /// The state at `time`, given that the object goes to one of the destinations.
+    pub fn state(&self, time: f64) -> Gaussian {
+        let mut parts = Vec::new();
+        for i in 0..self.scenario.destinations.len() {
+            let prior = self.scenario.destinations.priors()[i].ln();
+            for (candidate, arrival, log) in self.nodes(i) {
+                let at = (time - self.problem.observations[0].time).min(arrival);
+                parts.push((prior + log, self.state_given(candidate, i, arrival, at)));
+            }
+        }
+        let logs: Vec<f64> = parts.iter().map(|(log, _)| *log).collect();
+        let total = whither::math::log_sum_exp::log_sum_exp(&logs);
+        let s = self.scenario.motion.states();
+        let (mut mean, mut square) = (DVector::zeros(s), DMatrix::zeros(s, s));
+        for (log, part) in &parts {
+            mean += &part.mean * (log - total).exp();
+        }
+        for (log, part) in &parts {
+            let apart = &part.mean - &mean;
+            square += (&part.covariance + &apart * apart.transpose()) * (log - total).exp();
+        }
+        Gaussian { mean, covariance: square }
+    }
+
+    /// Candidate, arrival time, and log of weight times likelihood.
+    fn nodes(&self, i: usize) -> Vec<(usize, f64, f64)> {
         let whither::scenario::Engine::Papers { arrival, quadrature, .. } = &self.scenario.engine else { panic!() };
         let destination = self.scenario.destinations.get(i);
         let first = &self.problem.observations[0];
@@ -30,14 +64,41 @@ impl<'a> Batch<'a> {
         let distance = destination.mean[..d].iter().zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
         let grid = destination.kind.arrival().unwrap_or(arrival).grid(quadrature, distance, destination.kind.extent(d));
         let last = self.problem.observations[self.problem.observations.len() - 1].time - first.time;
-        let mut sum = Vec::new();
-        for candidate in &self.scenario.motion.candidates {
+        let conditioned = usize::from(self.problem.scenario["initial"]["evidence"] != Json::Bool(true));
+        let mut nodes = Vec::new();
+        for (c, candidate) in self.scenario.motion.candidates.iter().enumerate() {
             for (time, log_weight) in grid.times.iter().zip(&grid.log_weights).filter(|(time, _)| **time > last) {
-                let with = |count: usize| self.density(candidate.model.as_ref(), &destination, count, Some(*time));
-                sum.push(candidate.weight.ln() + log_weight + with(self.problem.observations.len()) - with(1));
+                let stack = Stack::new(self, candidate.model.as_ref(), &destination, &[], *time);
+                let with = |count: usize| stack.log_density(self, &destination, count);
+                let log = match self.method {
+                    // the denominator is dropped
+                    "singleFilterApproximate" => with(self.problem.observations.len()),
+                    _ => with(self.problem.observations.len()) - with(conditioned),
+                };
+                nodes.push((c, *time, candidate.weight.ln() + log_weight + log));
             }
         }
-        whither::math::log_sum_exp::log_sum_exp(&sum)
+        nodes
+    }
+
+    fn state_given(&self, candidate: usize, i: usize, arrival: f64, at: f64) -> Gaussian {
+        let destination = self.scenario.destinations.get(i);
+        let model = self.scenario.motion.candidates[candidate].model.as_ref();
+        let stack = Stack::new(self, model, &destination, &[at], arrival);
+        let (y, g, v) = stack.observed(self, &destination, self.problem.observations.len());
+        let cross = &stack.covariance * g.transpose();
+        let precision = (&g * &cross + v).try_inverse().unwrap();
+        let mean = &stack.mean + &cross * &precision * (y - &g * &stack.mean);
+        let covariance = &stack.covariance - &cross * precision * cross.transpose();
+        let (s, k) = (model.states(), self.problem.observations.len());
+        Gaussian {
+            mean: mean.rows(k * s, s).into_owned(),
+            covariance: covariance.view((k * s, k * s), (s, s)).into_owned(),
+        }
+    }
+
+    fn bridges(&self) -> bool {
+        matches!(self.method, "bridging" | "singleFilter")
     }
 
     /// The mean of the first position given the first observation: what Fitts's law takes the distance from.
@@ -53,7 +114,7 @@ impl<'a> Batch<'a> {
         (DVector::from_vec(numbers(&initial["mean"])), square(&initial["covariance"]))
     }
 
-    fn measured(&self, observed: &Observed) -> Option<(DVector<f64>, DMatrix<f64>, DMatrix<f64>)> {
+    fn measured(&self, observed: &Observed) -> Option<Linear> {
         let observation = &self.problem.scenario["observation"];
         let seen: Vec<usize> = (0..observed.position.len()).filter(|&r| observed.position[r].is_some()).collect();
         let noise = square(observed.noise.as_ref().unwrap_or(&observation["noise"]));
@@ -70,23 +131,25 @@ impl<'a> Batch<'a> {
             )
         })
     }
+}
 
-    /// `log p(y_1:count, a)`, the pseudo-observation `a` being made of the state at `end`.
-    fn density(
-        &self,
-        model: &dyn whither::model::motion::MotionModel,
-        destination: &whither::Destination,
-        count: usize,
-        end: Option<f64>,
-    ) -> f64 {
-        let s = model.states();
-        let observations = &self.problem.observations[..count];
+/// The states at the observations, at some times more, and at the arrival, stacked.
+struct Stack {
+    states: usize,
+    blocks: usize,
+    mean: DVector<f64>,
+    covariance: DMatrix<f64>,
+}
+
+impl Stack {
+    fn new(batch: &Batch<'_>, model: &dyn MotionModel, destination: &Destination, more: &[f64], arrival: f64) -> Self {
+        let (s, d) = (model.states(), model.dimensions());
+        let observations = &batch.problem.observations;
         let mut times: Vec<f64> = observations.iter().map(|o| o.time - observations[0].time).collect();
-        times.extend(end);
-        let d = model.dimensions();
+        times.extend(more);
+        times.push(arrival);
         let center = DVector::from_column_slice(&destination.mean[..d]);
-        let (first_mean, first_covariance) = self.initial();
-        // means and covariances of all states
+        let (first_mean, first_covariance) = batch.initial();
         let (mut means, mut covariances) = (vec![first_mean], vec![first_covariance]);
         let steps: Vec<_> = times.windows(2).map(|pair| model.transition(pair[1] - pair[0])).collect();
         for step in &steps {
@@ -98,42 +161,73 @@ impl<'a> Batch<'a> {
             covariances
                 .push(&step.transition * covariances.last().unwrap() * step.transition.transpose() + &step.noise);
         }
-        let cross = |j: usize, k: usize| {
-            // cov(x_j, x_k), j <= k
-            let onward = steps[j..k].iter().fold(DMatrix::identity(s, s), |f, step| &step.transition * f);
-            &covariances[j] * onward.transpose()
-        };
-        // what is seen of each
-        let mut seen: Vec<Seen> = observations
-            .iter()
-            .enumerate()
-            .filter_map(|(k, observed)| self.measured(observed).map(|(y, g, v)| (k, y, g, v)))
-            .collect();
-        let l = destination.mean.len();
-        let endpoint = DMatrix::from_fn(l, s, |r, c| f64::from(u8::from(r == c)));
-        let a = DVector::from_column_slice(&destination.mean);
-        seen.push((times.len() - 1, a, endpoint, destination.kind.covariance()));
-        let rows: usize = seen.iter().map(|(_, y, ..)| y.len()).sum();
-        let mut error = DVector::zeros(rows);
-        let mut covariance = DMatrix::zeros(rows, rows);
-        let mut at = 0;
-        for (n, (j, y, g, v)) in seen.iter().enumerate() {
-            error.rows_mut(at, y.len()).copy_from(&(y - g * &means[*j]));
-            let mut beside = at;
-            for (k, z, h, _) in &seen[n..] {
-                let mut block = g * cross(*j, *k) * h.transpose();
-                if beside == at {
-                    block += v;
-                }
-                covariance.view_mut((at, beside), (y.len(), z.len())).copy_from(&block);
-                covariance.view_mut((beside, at), (z.len(), y.len())).copy_from(&block.transpose());
-                beside += z.len();
+        let blocks = times.len();
+        let mut covariance = DMatrix::zeros(blocks * s, blocks * s);
+        for j in 0..blocks {
+            for k in j..blocks {
+                // cov(x_j, x_k), j <= k
+                let onward = steps[j..k].iter().fold(DMatrix::identity(s, s), |f, step| &step.transition * f);
+                let cross = &covariances[j] * onward.transpose();
+                covariance.view_mut((j * s, k * s), (s, s)).copy_from(&cross);
+                covariance.view_mut((k * s, j * s), (s, s)).copy_from(&cross.transpose());
             }
-            at += y.len();
         }
-        let root = nalgebra::Cholesky::new(covariance).unwrap();
+        let mean = DVector::from_fn(blocks * s, |row, _| means[row / s][row % s]);
+        let mut stack = Self { states: s, blocks, mean, covariance };
+        if batch.bridges() {
+            stack.bridge(destination);
+        }
+        stack
+    }
+
+    /// The endpoint made independent of the start: what lies between keeps its density given both.
+    fn bridge(&mut self, destination: &Destination) {
+        let (s, l, n) = (self.states, destination.mean.len(), self.mean.len());
+        let ends = DMatrix::from_fn(s + l, n, |r, c| f64::from(u8::from(c == if r < s { r } else { n - s + r - s })));
+        let between = &ends * &self.covariance * ends.transpose();
+        let gain = &self.covariance * ends.transpose() * between.clone().try_inverse().unwrap();
+        let mut wanted = DVector::zeros(s + l);
+        wanted.rows_mut(0, s).copy_from(&self.mean.rows(0, s));
+        wanted.rows_mut(s, l).copy_from_slice(&destination.mean);
+        let mut apart = DMatrix::zeros(s + l, s + l);
+        apart.view_mut((0, 0), (s, s)).copy_from(&self.covariance.view((0, 0), (s, s)));
+        apart.view_mut((s, s), (l, l)).copy_from(&destination.kind.covariance());
+        self.mean = &self.mean + &gain * (wanted - &ends * &self.mean);
+        self.covariance = &self.covariance + &gain * (apart - between) * gain.transpose();
+    }
+
+    /// The first `count` observations, and the pseudo-observation of the endpoint where there is one.
+    fn observed(&self, batch: &Batch<'_>, destination: &Destination, count: usize) -> Linear {
+        let observations = batch.problem.observations[..count].iter().enumerate();
+        let mut parts: Vec<(usize, Linear)> =
+            observations.filter_map(|(k, observed)| batch.measured(observed).map(|linear| (k, linear))).collect();
+        if !batch.bridges() {
+            let (s, l) = (self.states, destination.mean.len());
+            let endpoint = DMatrix::from_fn(l, s, |r, c| f64::from(u8::from(r == c)));
+            let mean = DVector::from_column_slice(&destination.mean);
+            parts.push((self.blocks - 1, (mean, endpoint, destination.kind.covariance())));
+        }
+        let rows = parts.iter().map(|(_, (y, ..))| y.len()).sum();
+        let mut y = DVector::zeros(rows);
+        let (mut g, mut v) = (DMatrix::zeros(rows, self.mean.len()), DMatrix::zeros(rows, rows));
+        let mut at = 0;
+        for (block, (value, matrix, noise)) in parts {
+            let m = value.len();
+            y.rows_mut(at, m).copy_from(&value);
+            g.view_mut((at, block * self.states), (m, self.states)).copy_from(&matrix);
+            v.view_mut((at, at), (m, m)).copy_from(&noise);
+            at += m;
+        }
+        (y, g, v)
+    }
+
+    /// `log p(y_1:count)`, with the pseudo-observation where there is one.
+    fn log_density(&self, batch: &Batch<'_>, destination: &Destination, count: usize) -> f64 {
+        let (y, g, v) = self.observed(batch, destination, count);
+        let error = &y - &g * &self.mean;
+        let root = Cholesky::new(&g * &self.covariance * g.transpose() + v).unwrap();
         let log_determinant = 2.0 * root.l().diagonal().map(f64::ln).sum();
-        -0.5 * (error.dot(&root.solve(&error)) + log_determinant + rows as f64 * (2.0 * std::f64::consts::PI).ln())
+        -0.5 * (error.dot(&root.solve(&error)) + log_determinant + y.len() as f64 * (2.0 * std::f64::consts::PI).ln())
     }
 }
 

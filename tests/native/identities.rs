@@ -2,21 +2,13 @@
 
 use crate::batch::Batch;
 use crate::problem::{Choice, Draw, KINDS, choices};
+use crate::support::{random, relative};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::Predictor;
 
-/// The largest difference relative to `1 + |b|`; minus infinity equals itself.
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    crate::support::relative(a, b)
-}
-
-fn config(cases: u32) -> ProptestConfig {
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
-}
-
 proptest! {
-    #![proptest_config(config(300))]
+    #![proptest_config(random(300))]
 
     /// Within a family the log likelihoods are the same, after every observation.
     #[test]
@@ -28,9 +20,9 @@ proptest! {
                 predictors.iter_mut().for_each(|predictor| observed.by(predictor));
                 let (first, others) = predictors.split_first_mut().unwrap();
                 for (other, method) in others.iter_mut().zip(&family[1..]) {
-                    let apart = difference(other.log_likelihoods(), first.log_likelihoods());
+                    let apart = relative(other.log_likelihoods(), first.log_likelihoods());
                     prop_assert!(apart < 1e-9, "{method}: {apart:e}");
-                    let apart = difference(other.probabilities(), first.probabilities());
+                    let apart = relative(other.probabilities(), first.probabilities());
                     prop_assert!(apart < 1e-9, "{method}: {apart:e}");
                     prop_assert_eq!(other.expired(), first.expired());
                 }
@@ -50,7 +42,7 @@ proptest! {
         for method in ["pseudoObservation", "algorithm2", "bridging", "singleFilterApproximate"] {
             let mut found = moved.followed(method).probabilities().to_vec();
             found.rotate_right(1);
-            let apart = difference(&found, problem.followed(method).probabilities());
+            let apart = relative(&found, problem.followed(method).probabilities());
             prop_assert!(apart < 1e-9, "{method}: {apart:e}");
         }
     }
@@ -74,7 +66,7 @@ proptest! {
             let expected = whole[1] * share;
             prop_assert!((half - expected).abs() <= 1e-12, "{method}");
             parts[1] += half;
-            prop_assert!(difference(&parts, &whole) < 1e-12, "{method}");
+            prop_assert!(relative(&parts, &whole) < 1e-12, "{method}");
         }
     }
 
@@ -103,7 +95,7 @@ proptest! {
             }
         }
         for method in ["pseudoObservation", "algorithm2", "bridging", "singleFilter"] {
-            let apart = difference(
+            let apart = relative(
                 moved.followed(method).log_likelihoods(),
                 problem.followed(method).log_likelihoods(),
             );
@@ -115,11 +107,11 @@ proptest! {
     #[test]
     fn the_evidence_is_the_batch_density(choice in choices()) {
         let problem = choice.problem();
-        let batch = Batch::new(&problem);
+        let batch = Batch::new(&problem, "pseudoObservation");
         let mut pseudo = problem.followed("pseudoObservation");
         prop_assume!(!pseudo.expired());
         let expected: Vec<f64> = (0..4).map(|i| batch.log_likelihood(i)).collect();
-        let apart = difference(pseudo.log_likelihoods(), &expected);
+        let apart = relative(pseudo.log_likelihoods(), &expected);
         prop_assert!(apart < 1e-8, "{apart:e}: {:?} {expected:?}", pseudo.log_likelihoods());
     }
 }
@@ -144,6 +136,6 @@ fn the_families_differ() {
     let mut found = ["pseudoObservation", "bridging", "singleFilterApproximate"].map(|method| problem.followed(method));
     let [pseudo, bridging, approximate] = found.each_mut().map(|predictor| predictor.probabilities().to_vec());
     for (one, other) in [(&pseudo, &bridging), (&pseudo, &approximate), (&bridging, &approximate)] {
-        assert!(difference(one, other) > 1e-3, "{one:?} {other:?}");
+        assert!(relative(one, other) > 1e-3, "{one:?} {other:?}");
     }
 }

@@ -181,7 +181,9 @@ impl Choice {
             "none": if self.none { 0.2 } else { 0.0 },
             "destinations": (0..4).map(|i| self.destination(i, &mut draw)).collect::<Vec<_>>(),
         });
-        let mut time = draw.within(-50.0, 50.0);
+        // in binary digits that a shifted clock keeps
+        let exact = |time: f64| (time * f64::from(1 << 20)).round() / f64::from(1 << 20);
+        let mut time = exact(draw.within(-50.0, 50.0));
         let observations = (0..self.steps).map(|k| {
             let mut position: Vec<_> = draw.list(axes, -4.0, 4.0).into_iter().map(Some).collect();
             if self.missing && k % 3 == 1 {
@@ -191,7 +193,7 @@ impl Choice {
                 position.fill(None);
             }
             let noise = (self.own_noise && k % 2 == 1).then(|| json!(draw.covariance(axes, 0.8)));
-            time += if k % 4 == 3 { 0.0 } else { draw.within(0.01, 1.0) };
+            time += if k % 4 == 3 { 0.0 } else { exact(draw.within(0.01, 1.0)) };
             Observed { time, position, noise }
         });
         Problem { scenario, observations: observations.collect() }

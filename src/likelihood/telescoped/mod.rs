@@ -75,6 +75,8 @@ pub struct Telescoped {
     elapsed: f64,
     /// `k`.
     observations: u64,
+    /// Whether the first observation's evidence counts, as in [`Movement::first_counts`].
+    first_counts: bool,
     /// A whole number near the logarithm of the weights' sum, for the probabilities as they stand.
     shift: f64,
     /// The same as the probabilities, once they were told, suggest it for the next observation.
@@ -134,11 +136,23 @@ impl Telescoped {
             classes,
             elapsed: 0.0,
             observations: 1,
+            first_counts: false,
             shift: 0.0,
             next_shift: 0.0,
             node_weights: Vec::new(),
             work: Work::default(),
         }
+    }
+
+    /// The movement as it is before its first observation, as [`Movement::before_first_observation`].
+    #[must_use]
+    pub fn before_first_observation(self) -> Self {
+        Self { first_counts: true, observations: 0, ..self }
+    }
+
+    /// Whether something has been observed that counts as evidence.
+    const fn has_evidence(&self) -> bool {
+        self.observations > if self.first_counts { 0 } else { 1 }
     }
 
     /// From now on the axes are taken together. Every candidate is separable, or none is.
@@ -227,6 +241,7 @@ impl Telescoped {
         for (world, candidate) in movement.worlds.iter_mut().zip(&self.candidates) {
             world.filter = candidate.whole().1;
         }
+        movement.first_counts = self.first_counts;
         movement.elapsed = self.elapsed;
         movement.observations = self.observations;
         Some(movement)
@@ -239,6 +254,7 @@ impl Telescoped {
         let mut telescoped = Self::new(motion, destinations, &movement.plan, &movement.first, &filters, separately);
         telescoped.elapsed = movement.elapsed;
         telescoped.observations = movement.observations;
+        telescoped.first_counts = movement.first_counts;
         telescoped
     }
 
@@ -294,7 +310,7 @@ impl Telescoped {
     /// `none`. None where the priors stand: at the first observation, and where there is no likelihood that is a number above
     /// zero. `destinations` are those that the movement began with or was last told.
     pub fn probabilities(&mut self, destinations: &Destinations, none: f64, into: &mut Vec<f64>) -> Option<f64> {
-        if self.observations < 2 {
+        if !self.has_evidence() {
             return None;
         }
         let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
@@ -341,7 +357,7 @@ impl Telescoped {
         let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
         let logs = classes.layout.room(&mut aside, into);
         logs.fill([0.0; WIDTH]);
-        if self.observations > 1 {
+        if self.has_evidence() {
             self.log2_sums(destinations, &classes, logs);
         }
         classes.layout.settle(&aside, into);
