@@ -21,7 +21,7 @@ const parts = {
     await check("cargo", ["clippy", ...wasmTarget, ...alone, "--lib", "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
     await tests("cargo", ["test", "--package", "whither", "--features", "fit"]);
-    await tests("cargo", ["test", "--package", "evaluate"]);
+    await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);
   },
   async wasm() {
     // Without the feature: its classes import js/error.ts, which only the built package has. tests/js runs those.

@@ -15,7 +15,7 @@ const SIGMA: f64 = 1.0;
 /// A probability that is "significant (meaningful)", among 21.
 const SURE: f64 = 0.3;
 
-const fn gestures(effort: Effort) -> usize {
+pub const fn gestures(effort: Effort) -> usize {
     match effort {
         Effort::Full => 50,
         Effort::Quick => 12,
@@ -38,12 +38,12 @@ fn both(targets: &[[f64; 4]], movement: &Movement) -> [Vec<Vec<f64>>; 2] {
     METHODS.map(|method| beliefs(&predictor_of(targets, method, SIGMA), movement))
 }
 
-fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
-    let gestures = gestures::simulated(gestures(effort), 50);
-    // observations, and those at which both agree: all, and where the exact one is fairly sure
+/// The share of the observations at which both methods have the same destination on top, of all and of those where the exact
+/// one is fairly sure; and each method's shares of the time with the true one on top.
+pub fn compare(gestures: &[Gesture], progress: &ProgressBar) -> ([f64; 2], [Vec<f64>; 2]) {
     let (mut same, mut observations) = ([0.0; 2], [0.0; 2]);
     let mut shares = [Vec::new(), Vec::new()];
-    for Gesture { movement, targets } in &gestures {
+    for Gesture { movement, targets } in gestures {
         let both = both(targets, movement);
         for (exact, approximate) in both[0].iter().zip(&both[1]) {
             let sure = exact[top(exact)] > SURE;
@@ -57,6 +57,12 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
         }
         progress.inc(1);
     }
+    ([0, 1].map(|place| same[place] / observations[place]), shares)
+}
+
+fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
+    let gestures = gestures::simulated(gestures(effort), 50);
+    let (agreements, shares) = compare(&gestures, progress);
     let selected = &gestures[0];
     let beliefs = both(&selected.targets, &selected.movement);
     let largest =
@@ -104,7 +110,7 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
     .into_iter()
     .enumerate()
     {
-        let agreement = same[place] / observations[place];
+        let agreement = agreements[place];
         let difference = format!("{:+.1} points", 100.0 * (agreement - 1.0));
         exhibit.compare(quantity, "100%", percent(agreement), difference);
     }

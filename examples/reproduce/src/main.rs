@@ -10,6 +10,8 @@ mod plot;
 mod random;
 mod report;
 mod rezaie_li;
+#[cfg(test)]
+mod tests;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};

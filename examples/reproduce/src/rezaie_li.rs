@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use serde_json::json;
 use whither::{ConditionallyMarkovSequence, Value};
 
-const STEPS: usize = 100;
+pub const STEPS: usize = 100;
 /// Measurements are used up to this step.
 const LAST_MEASURED: usize = 9;
 const PAPERS_RATIO: f64 = 368.13;
@@ -66,7 +66,7 @@ pub fn work(effort: Effort) -> u64 {
     (runs(effort) / RUNS_A_TICK) as u64
 }
 
-const fn runs(effort: Effort) -> usize {
+pub const fn runs(effort: Effort) -> usize {
     match effort {
         Effort::Full => 1000,
         Effort::Quick => 200,
@@ -122,7 +122,8 @@ fn figure1() -> Exhibit {
     exhibit
 }
 
-fn figure2(runs: usize, progress: &ProgressBar) -> Exhibit {
+/// The average Euclidean errors of the predicted position at each step, by the CM_L sequence and by the Markov sequence.
+pub fn average_errors(runs: usize, progress: &ProgressBar) -> [[f64; STEPS + 1]; 2] {
     let mut sequences = [directed(), markov()];
     let trajectories = sequences[0].sample(2018, runs).expect("not too many");
     let mut noise = random::Normals::new(40);
@@ -144,6 +145,11 @@ fn figure2(runs: usize, progress: &ProgressBar) -> Exhibit {
         }
         progress.inc(u64::from(run % RUNS_A_TICK == 0));
     }
+    errors
+}
+
+fn figure2(runs: usize, progress: &ProgressBar) -> Exhibit {
+    let errors = average_errors(runs, progress);
     let points = |errors: &[f64]| {
         (LAST_MEASURED + 1..=STEPS).map(|k| ((k - LAST_MEASURED) as f64, errors[k].log10())).collect::<Vec<_>>()
     };

@@ -1,9 +1,9 @@
 //! Liang, Ahmad, Gan, Langdon, Hardy and Godsill, "On Destination Prediction Based on Markov Bridging Distributions".
 
 mod complexity;
-mod pointing;
+pub mod pointing;
 mod prediction_error;
-mod vessels;
+pub mod vessels;
 
 use crate::Effort;
 use crate::report::Chapter;

@@ -15,7 +15,7 @@ const FAMILIES: [(&str, &str); 3] = [
     ("singleFilterApproximate", "Ardeshiri, Table 1"),
 ];
 
-const fn simulated(effort: Effort) -> usize {
+pub const fn simulated(effort: Effort) -> usize {
     match effort {
         Effort::Full => 95,
         Effort::Quick => 20,
@@ -64,7 +64,7 @@ pub fn exhibits(effort: Effort, progress: &ProgressBar) -> Vec<Exhibit> {
     exhibits
 }
 
-fn success(gestures: &[Gesture], method: &str, noise: f64) -> f64 {
+pub fn success(gestures: &[Gesture], method: &str, noise: f64) -> f64 {
     let share = |gesture: &Gesture| {
         let beliefs = beliefs(&predictor_of(&gesture.targets, method, noise), &gesture.movement);
         share_on_top(&beliefs, &gesture.movement)

@@ -11,7 +11,7 @@ use serde_json::json;
 use whither::{ConditionallyMarkovSequence, Scenario, Value};
 
 /// The harbours' centres in metres, around a bay; not in the paper.
-const HARBOURS: [[f64; 2]; 6] = [
+pub const HARBOURS: [[f64; 2]; 6] = [
     [-32_000.0, 14_000.0],
     [-24_000.0, 30_000.0],
     [-8_000.0, 38_000.0],
@@ -95,7 +95,33 @@ pub fn vessel(truth: usize, random: &mut random::Normals) -> Vessel {
     Vessel { movement: Movement { observations, truth }, reported }
 }
 
-const fn tracks(effort: Effort) -> usize {
+/// So many vessels, to one harbour after the other.
+pub fn drawn(count: usize) -> Vec<Vessel> {
+    let mut random = random::Normals::new(6);
+    (0..count).map(|i| vessel(i % HARBOURS.len(), &mut random)).collect()
+}
+
+/// The probabilities over each track by the original bridging distributions and by Algorithm 1.
+pub fn families(vessels: &[Vessel], start: fn(&Vessel) -> Start) -> [Vec<Vec<Vec<f64>>>; 2] {
+    ["bridging", "algorithm1"].map(|method| {
+        let believe = |vessel: &Vessel| beliefs(&predictor_of(method, start(vessel)), &vessel.movement);
+        vessels.iter().map(believe).collect()
+    })
+}
+
+pub fn reported(vessel: &Vessel) -> Start {
+    Start::Reported(vessel.reported)
+}
+
+/// The mean share of the time during which the true harbour is on top.
+pub fn success(vessels: &[Vessel], method: &str) -> f64 {
+    let share = |vessel: &Vessel| {
+        share_on_top(&beliefs(&predictor_of(method, reported(vessel)), &vessel.movement), &vessel.movement)
+    };
+    mean(&vessels.iter().map(share).collect::<Vec<f64>>())
+}
+
+pub const fn tracks(effort: Effort) -> usize {
     match effort {
         Effort::Full => 100,
         Effort::Quick => 12,
@@ -108,8 +134,7 @@ pub fn work(effort: Effort) -> u64 {
 
 pub fn exhibits(effort: Effort, progress: &ProgressBar) -> Vec<Exhibit> {
     progress.set_message("Liang: vessels");
-    let mut random = random::Normals::new(6);
-    let vessels: Vec<Vessel> = (0..tracks(effort)).map(|i| vessel(i % HARBOURS.len(), &mut random)).collect();
+    let vessels = drawn(tracks(effort));
     vec![figure1(&vessels, progress), figure2(&vessels, progress)]
 }
 
@@ -126,14 +151,8 @@ fn assumptions() -> Vec<String> {
 
 fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
     let shown = &vessels[..HARBOURS.len()];
-    let both = |start: fn(&Vessel) -> Start| {
-        ["bridging", "algorithm1"].map(|method| {
-            let believe = |vessel: &Vessel| beliefs(&predictor_of(method, start(vessel)), &vessel.movement);
-            shown.iter().map(believe).collect::<Vec<_>>()
-        })
-    };
-    let [original, proposed] = both(|vessel| Start::Reported(vessel.reported));
-    let unknown = both(|_| Start::Unknown);
+    let [original, proposed] = families(shown, reported);
+    let unknown = families(shown, |_| Start::Unknown);
     let mut map = Vec::new();
     for (vessel, beliefs) in shown.iter().zip(&proposed) {
         for (pair, belief) in vessel.movement.observations.windows(2).zip(beliefs) {
@@ -172,16 +191,12 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
             }
         })
         .collect();
-    let mut success = Table::new(&["method", "", "time on top"]);
+    let mut success_table = Table::new(&["method", "", "time on top"]);
     let mut shares = Vec::new();
     for (method, source) in METHODS {
-        let share = |vessel: &Vessel| {
-            let scenario = predictor_of(method, Start::Reported(vessel.reported));
-            share_on_top(&beliefs(&scenario, &vessel.movement), &vessel.movement)
-        };
-        let each: Vec<f64> = vessels.iter().map(share).collect();
-        shares.push(mean(&each));
-        success.row([method.to_owned(), source.to_owned(), percent(mean(&each))]);
+        let share = success(vessels, method);
+        success_table.row([method.to_owned(), source.to_owned(), percent(share)]);
+        shares.push(share);
     }
     progress.inc(vessels.len() as u64);
     let mut exhibit = Exhibit {
@@ -191,7 +206,7 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
         paper: "Bridging is effective: uncertainty diminishes as the vessel moves towards its endpoint. The proposed algorithms give \
                 very similar results to the original."
             .into(),
-        tables: vec![success],
+        tables: vec![success_table],
         assumed: assumptions(),
         ..Exhibit::default()
     };
@@ -214,7 +229,7 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
 }
 
 /// Over all tracks, times and harbours.
-fn largest_difference(one: &[Vec<Vec<f64>>], other: &[Vec<Vec<f64>>]) -> f64 {
+pub fn largest_difference(one: &[Vec<Vec<f64>>], other: &[Vec<Vec<f64>>]) -> f64 {
     let pairs = one.iter().flatten().flatten().zip(other.iter().flatten().flatten());
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -224,7 +239,7 @@ fn figure2(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
     let mut sums = vec![[0.0; 3]; 160];
     let mut counts = vec![0.0; 160];
     for vessel in vessels {
-        let scenario = predictor_of("bridging", Start::Reported(vessel.reported));
+        let scenario = predictor_of("bridging", reported(vessel));
         for (k, distances) in distances(&scenario, &vessel.movement).into_iter().enumerate() {
             counts[k] += 1.0;
             (0..3).for_each(|pair| sums[k][pair] += distances[pair]);
