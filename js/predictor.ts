@@ -102,6 +102,10 @@ export class Predictor {
   /**
    * Takes in one observation.
    *
+   * Equal times are legal. With the method `pointing` an observation at the time of the last one replaces it, in the axes that it
+   * has, and at the first time the movement begins with it: rounded clocks and events stamped by the frame give several places
+   * one time. The methods of the papers count each as an observation of its own.
+   *
    * @param time - Seconds, at least the last observation's.
    * @param position - A number for each observed axis; `null` or `undefined` for one that is missing.
    * @param options - What belongs to this observation alone.

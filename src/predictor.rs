@@ -115,7 +115,9 @@ impl Predictor {
     }
 
     /// Takes one observation in: `time` in seconds on any clock, `position` with one number for each axis. The first one
-    /// begins the movement. An equal time is legal.
+    /// begins the movement. An equal time is legal: with the method `pointing` the observation replaces the last one, in the axes
+    /// that it has, and at the first time the movement begins with it, since rounded clocks and events stamped by the frame give
+    /// several places one time; the methods of the papers count it as an observation of its own.
     ///
     /// # Errors
     /// `time-not-increasing`, `wrong-length`, `not-finite`; `out-of-range` for a position beyond 1e50 or a time more than

@@ -10,7 +10,7 @@
 //! | `singleFilterApproximate` | [`single_filter`] | Ardeshiri (15), Table 1 |
 //!
 //! Within a family the methods give the same numbers to rounding; the families differ from each other. Each gives the states of its
-//! own family too.
+//! own family too. Observations at one time are observations each, as in the papers: two of one place say more than one.
 
 pub mod algorithm1;
 pub mod algorithm2;

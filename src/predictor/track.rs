@@ -164,7 +164,9 @@ impl Track {
                 *dense = None;
             }
             Followed::Pointing(pointing) => {
-                pointing.advance(elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
+                pointing.advance(destinations, elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
+                let start = &pointing.course().start;
+                self.start.iter_mut().zip(start).for_each(|(to, from)| *to = *from);
             }
         }
         self.time = observed.time;

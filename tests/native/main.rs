@@ -16,6 +16,7 @@ mod imports;
 mod life;
 mod numerics;
 mod pointing;
+mod pointing_times;
 mod problem;
 mod sequences;
 mod states;

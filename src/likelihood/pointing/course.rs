@@ -1,13 +1,16 @@
 //! The filter of the pointing model: constant velocity whose noise grows with the speed, each axis a root of a
 //! 4 by 4 covariance, that of the first state and the state now.
+//!
+//! An observation at the time of the last one replaces it: clocks that are rounded, and events stamped by the frame, give several
+//! places one time, and of those the last is where the pointer was then. So the course keeps how it stood before the last one.
 
 use super::parameters::Parameters;
-use super::{Vector, dot, vector};
+use super::{Vector, dot, minus, vector};
 use crate::error::Result;
 use crate::math::small_root::{condition, triangularise};
 use crate::value::{Node, Value};
 
-/// The shortest step that the filter takes, in seconds: repeated times must not make the velocity certain.
+/// The shortest step that the filter takes, in seconds: nearly equal times must not make the velocity certain.
 const SHORTEST_STEP: f64 = 1e-4;
 
 /// One axis of the state: position and velocity now, and at the start given all observations, with what ties them.
@@ -84,6 +87,53 @@ impl Axis {
     }
 }
 
+/// One observation; none marks an axis that is missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Observed {
+    position: [Option<f64>; 3],
+    variances: Vector,
+}
+
+impl Observed {
+    fn new(position: &[Option<f64>], variances: &[f64]) -> Self {
+        let axis = |k: usize| position.get(k).copied().flatten();
+        Self { position: std::array::from_fn(axis), variances: vector(variances) }
+    }
+
+    /// Itself, and where it is missing an axis, what `other` has of it.
+    fn or(mut self, other: &Self) -> Self {
+        for k in 0..3 {
+            if self.position[k].is_none() {
+                (self.position[k], self.variances[k]) = (other.position[k], other.variances[k]);
+            }
+        }
+        self
+    }
+}
+
+/// How a movement stood before its last observation.
+#[derive(Clone, Debug, PartialEq)]
+struct Before {
+    elapsed: f64,
+    axes: [Axis; 3],
+    twins: [bool; 3],
+}
+
+/// How far a movement has begun: a pointer that rests where it was first observed has not, and what the start says of the
+/// destinations fades.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Onset {
+    /// How far the pointer has fallen short of the way that `restSpeed` would have brought it from the start.
+    pub shortfall: f64,
+    /// The share of that way that it has come, at most one.
+    pub share: f64,
+}
+
+impl Onset {
+    /// Of a movement that has begun.
+    pub const BEGUN: Self = Self { shortfall: 0.0, share: 1.0 };
+}
+
 /// The movement so far, without regard to the destinations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
@@ -92,12 +142,16 @@ pub struct Course {
     pub start: Vector,
     /// `t_k - t_1`.
     pub elapsed: f64,
-    /// How many observations there were.
+    /// How many observations there were, those that were replaced not counted.
     pub observations: u64,
     /// The axes; those beyond the dimensions stay at zero.
     pub axes: [Axis; 3],
     /// Whether an axis has the root of the first one: it has begun and been observed alike.
     twins: [bool; 3],
+    /// The last observation.
+    last: Observed,
+    /// None at the first observation.
+    before: Option<Before>,
 }
 
 impl Course {
@@ -111,11 +165,40 @@ impl Course {
             axes[j] = Axis::begin(y, variance, parameters.first_speed[j].powi(2));
         }
         let twins = axes.map(|axis| axis.root == axes[0].root);
-        Self { dimensions: position.len().min(3), start, elapsed: 0.0, observations: 1, axes, twins }
+        let last = Observed { position: vector(position).map(Some), variances: vector(variances) };
+        Self {
+            dimensions: position.len().min(3),
+            start,
+            elapsed: 0.0,
+            observations: 1,
+            axes,
+            twins,
+            last,
+            before: None,
+        }
     }
 
-    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
+    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
+    /// of the last one it replaces that, in the axes that it has, and at the first time the movement begins with it.
     pub fn advance(&mut self, parameters: &Parameters, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+        let mut observed = Observed::new(position, variances);
+        if elapsed == self.elapsed {
+            observed = observed.or(&self.last);
+            let Some(before) = &self.before else {
+                let position = observed.position.map(|axis| axis.unwrap_or(0.0));
+                *self = Self::begin(parameters, &position[..self.dimensions], &observed.variances);
+                return;
+            };
+            (self.elapsed, self.axes, self.twins) = (before.elapsed, before.axes, before.twins);
+            self.observations -= 1;
+        }
+        self.before = Some(Before { elapsed: self.elapsed, axes: self.axes, twins: self.twins });
+        self.last = observed;
+        self.follow(parameters, elapsed, &observed);
+    }
+
+    fn follow(&mut self, parameters: &Parameters, elapsed: f64, observed: &Observed) {
+        let Observed { position, variances } = observed;
         let step = elapsed - self.elapsed;
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
@@ -144,6 +227,16 @@ impl Course {
         }
         self.elapsed = elapsed;
         self.observations += 1;
+    }
+
+    /// How far the movement has begun, against a pointer that leaves its start at `rest_speed` once as long as `Power::time` has
+    /// passed: before that no rest can be told from a slow beginning.
+    #[must_use]
+    pub fn onset(&self, parameters: &Parameters) -> Onset {
+        let way = minus(&self.position(), &self.start);
+        let expected = parameters.rest_speed * (self.elapsed - parameters.power.time);
+        let net = dot(&way, &way).sqrt();
+        if net >= expected { Onset::BEGUN } else { Onset { shortfall: expected - net, share: net / expected } }
     }
 
     /// Spatial dimensions.
@@ -176,16 +269,19 @@ impl Course {
     /// What a snapshot keeps.
     #[must_use]
     pub fn save(&self) -> Value {
-        let mut numbers = self.start[..self.dimensions].to_vec();
-        for axis in &self.axes[..self.dimensions] {
-            numbers.extend([axis.position, axis.velocity]);
-            numbers.extend(axis.first);
-            numbers.extend(axis.root.as_flattened());
-        }
+        let d = self.dimensions;
+        let last = self.last.position[..d].iter().map(|axis| axis.map_or(Value::Null, Value::exact));
+        let before = self.before.as_ref().map_or(Value::Null, |before| {
+            Value::map([("elapsed", Value::exact(before.elapsed)), ("axes", save_axes(&before.axes[..d]))])
+        });
         Value::map([
             ("elapsed", Value::exact(self.elapsed)),
             ("observations", Value::Number(self.observations as f64)),
-            ("axes", Value::exact_numbers(&numbers)),
+            ("start", Value::exact_numbers(&self.start[..d])),
+            ("axes", save_axes(&self.axes[..d])),
+            ("last", Value::List(last.collect())),
+            ("variances", Value::exact_numbers(&self.last.variances[..d])),
+            ("before", before),
         ])
     }
 
@@ -194,22 +290,49 @@ impl Course {
     /// # Errors
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        const EACH: usize = 20;
-        let fields = node.fields(&["elapsed", "observations", "axes"])?;
-        let numbers = fields.required("axes")?.exact_numbers(dimensions * (1 + EACH))?;
-        let (start, rest) = numbers.split_at(dimensions);
-        let mut axes = [Axis::begin(0.0, 0.0, 0.0); 3];
-        for (axis, n) in axes.iter_mut().zip(rest.chunks_exact(EACH)) {
-            let root = std::array::from_fn(|i| std::array::from_fn(|j| n[4 + 4 * i + j]));
-            *axis = Axis::of(root, [n[2], n[3]], [n[0], n[1]]);
+        let fields = node.fields(&["elapsed", "observations", "start", "axes", "last", "variances", "before"])?;
+        let (axes, twins) = load_axes(&fields.required("axes")?, dimensions)?;
+        let mut position = [None; 3];
+        for (axis, item) in position.iter_mut().zip(fields.required("last")?.items()?) {
+            *axis = if *item.value() == Value::Null { None } else { Some(item.exact()?) };
         }
+        let variances = vector(&fields.required("variances")?.exact_numbers(dimensions)?);
+        let before = fields.optional("before").map(|before| {
+            let fields = before.fields(&["elapsed", "axes"])?;
+            let (axes, twins) = load_axes(&fields.required("axes")?, dimensions)?;
+            Ok(Before { elapsed: fields.required("elapsed")?.exact()?, axes, twins })
+        });
         Ok(Self {
-            twins: axes.map(|axis| axis.root == axes[0].root),
             dimensions,
-            start: vector(start),
+            start: vector(&fields.required("start")?.exact_numbers(dimensions)?),
             elapsed: fields.required("elapsed")?.exact()?,
             observations: fields.positive("observations")? as u64,
             axes,
+            twins,
+            last: Observed { position, variances },
+            before: before.transpose()?,
         })
     }
+}
+
+fn save_axes(axes: &[Axis]) -> Value {
+    let mut numbers = Vec::new();
+    for axis in axes {
+        numbers.extend([axis.position, axis.velocity]);
+        numbers.extend(axis.first);
+        numbers.extend(axis.root.as_flattened());
+    }
+    Value::exact_numbers(&numbers)
+}
+
+/// The axes, and which are twins of the first.
+fn load_axes(node: &Node<'_>, dimensions: usize) -> Result<([Axis; 3], [bool; 3])> {
+    const EACH: usize = 20;
+    let numbers = node.exact_numbers(dimensions * EACH)?;
+    let mut axes = [Axis::begin(0.0, 0.0, 0.0); 3];
+    for (axis, n) in axes.iter_mut().zip(numbers.chunks_exact(EACH)) {
+        let root = std::array::from_fn(|i| std::array::from_fn(|j| n[4 + 4 * i + j]));
+        *axis = Axis::of(root, [n[2], n[3]], [n[0], n[1]]);
+    }
+    Ok((axes, axes.map(|axis| axis.root == axes[0].root)))
 }

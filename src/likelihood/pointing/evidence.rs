@@ -1,14 +1,16 @@
 //! What is said of a destination apart from the endpoint density: seen from the start of the movement.
 
-use super::course::Course;
+use super::course::{Course, Onset};
 use super::parameters::{Direction, Start};
 use super::{Vector, cross, dot, minus};
 use crate::model::destination::Kind;
 
-/// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is seen.
+/// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is observed.
+/// The square of `onset`'s shortfall is added to that of the core.
 #[must_use]
-pub fn log_start(start: &Start, offset: &Vector) -> f64 {
-    -0.5 * start.exponent * (dot(offset, offset) + start.core * start.core).ln()
+pub fn log_start(start: &Start, offset: &Vector, onset: &Onset) -> f64 {
+    let core = start.core * start.core + onset.shortfall * onset.shortfall;
+    -0.5 * start.exponent * (dot(offset, offset) + core).ln()
 }
 
 /// `ln (m^2 / (m^2 + near^2))`, `m` the distance from the start in widths and heights of the target: a movement seldom ends

@@ -11,6 +11,7 @@
 //! | direction | the way covered so far points at the target, the better the farther one has come | `evidence` |
 //! | power | the first samples say less than the model believes, the later ones more | [`parameters::Power`] |
 //! | near | a movement seldom ends where it began | `evidence` |
+//! | onset | a pointer that rests from the start on has not begun a movement, and may mean what it rests on | `course` |
 //!
 //! `targets` and `weigh` do it for all destinations at the speed of the machine; the other parts say it one destination at
 //! a time, for the log likelihoods and whatever else is asked.
@@ -27,7 +28,7 @@ pub(crate) mod weigh;
 
 use crate::math::log_sum_exp::share;
 use crate::model::destination::Destinations;
-use course::Course;
+use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
 use parameters::Parameters;
@@ -108,10 +109,18 @@ impl Pointing {
         pointing
     }
 
-    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed.
-    pub fn advance(&mut self, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+    /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
+    /// of the last one it replaces that. `destinations` are those that the movement began with or was last given.
+    pub fn advance(&mut self, destinations: &Destinations, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
         self.course.advance(&self.parameters, elapsed, position, variances);
+        if self.course.observations < 2 {
+            self.replan(destinations);
+        }
         self.nodes.refresh(&self.parameters, &self.course);
+    }
+
+    fn onset(&self) -> Onset {
+        self.course.onset(&self.parameters)
     }
 
     /// The movement so far.
@@ -128,7 +137,9 @@ impl Pointing {
     /// Writes the probabilities among the destinations, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
     /// logarithm of that sum; none where nothing is known of any of them.
     pub fn probabilities(&mut self, destinations: &Destinations, into: &mut Vec<f64>) -> Option<f64> {
+        let onset = self.onset();
         if self.course.observations > 1 {
+            self.targets.begin(destinations, &self.parameters, self.log_volume, &self.course.start, onset);
             let now = Now {
                 nodes: &self.nodes,
                 direction: &DirectionNow::new(&self.parameters.direction, &self.course),
@@ -144,7 +155,7 @@ impl Pointing {
         for (i, (value, prior)) in into.iter_mut().zip(destinations.priors()).enumerate() {
             let offset = minus(&vector(&destinations.center(i)), &self.course.start);
             let near = log_near(self.parameters.near, &offset, destinations.kind(i), self.course.dimensions());
-            *value += near + (prior / total).ln();
+            *value += onset.share * near + (prior / total).ln();
         }
         share(into)
     }
@@ -159,11 +170,11 @@ impl Pointing {
         }
         let power = parameters.power.after(self.course.elapsed);
         let direction = DirectionNow::new(&parameters.direction, &self.course);
-        let pairs = self.nodes.pairs();
+        let (pairs, onset) = (self.nodes.pairs(), self.onset());
         into.extend((0..destinations.len()).map(|i| {
             let (center, kind) = (destinations.center(i), destinations.kind(i));
             let offset = minus(&vector(&center), &self.course.start);
-            let start = log_start(&parameters.start, &offset) - self.log_volume;
+            let start = log_start(&parameters.start, &offset, &onset) - self.log_volume;
             let seen = direction.log_evidence(&offset, kind);
             let whole = power * (pairs.log_density(&center, kind) - start) + seen;
             // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known

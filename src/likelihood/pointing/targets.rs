@@ -1,5 +1,6 @@
 //! The destinations as flat arrays for the hot loop, by class, with what the start of the movement says of each.
 
+use super::course::Onset;
 use super::evidence::{log_near, log_start};
 use super::parameters::Parameters;
 use super::{Symmetric, Vector, minus, vector};
@@ -34,6 +35,8 @@ pub struct Targets {
     pub moderate: bool,
     /// Where they stand.
     pub layout: Layout,
+    /// How far the movement had begun when the start was last asked.
+    onset: Option<Onset>,
 }
 
 impl Targets {
@@ -57,18 +60,22 @@ impl Targets {
         }
         self.place(&pool, None);
         self.layout.finish(destinations);
-        self.see(destinations, parameters, log_volume, start);
+        self.onset = None;
+        self.begin(destinations, parameters, log_volume, start, Onset::BEGUN);
     }
 
-    fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {
-        let blocks = self.layout.place(members, covariance.is_none());
-        if !members.is_empty() {
-            self.classes.push(Class { covariance, blocks });
+    /// Writes down what the start says of each once the movement has begun so far, where that has changed.
+    pub fn begin(
+        &mut self,
+        destinations: &Destinations,
+        parameters: &Parameters,
+        log_volume: f64,
+        start: &Vector,
+        onset: Onset,
+    ) {
+        if self.onset.replace(onset) == Some(onset) {
+            return;
         }
-    }
-
-    /// What the start says of each.
-    fn see(&mut self, destinations: &Destinations, parameters: &Parameters, log_volume: f64, start: &Vector) {
         let d = destinations.dimensions();
         let total: f64 = destinations.priors().iter().sum();
         self.moderate = true;
@@ -80,8 +87,8 @@ impl Targets {
             let [mut over_start, mut priors] = [[0.0; WIDTH]; 2];
             for (lane, (i, stands)) in block.into_iter().enumerate() {
                 let (kind, offset) = (destinations.kind(i), minus(&vector(&destinations.center(i)), start));
-                let log_start = log_start(&parameters.start, &offset) - log_volume;
-                let near = log_near(parameters.near, &offset, kind, d);
+                let log_start = log_start(&parameters.start, &offset, &onset) - log_volume;
+                let near = onset.share * log_near(parameters.near, &offset, kind, d);
                 self.moderate &= log_start.abs() < MODERATE && near > -MODERATE;
                 over_start[lane] = (-log_start).exp();
                 if stands {
@@ -90,6 +97,13 @@ impl Targets {
             }
             self.over_start.push(over_start);
             self.priors.push(priors);
+        }
+    }
+
+    fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {
+        let blocks = self.layout.place(members, covariance.is_none());
+        if !members.is_empty() {
+            self.classes.push(Class { covariance, blocks });
         }
     }
 }
