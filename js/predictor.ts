@@ -43,13 +43,19 @@ export interface ArrivalTime {
   readonly deviation: number;
 }
 
-/** How long it takes until the object enters its target, in seconds from the last observation. */
+/**
+ * How long it takes until the object enters its target, in seconds from the last observation, with an interval.
+ *
+ * With the papers' methods the interval lies between the tenth and the ninetieth percentile of the posterior of the arrival time.
+ * With `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three sets,
+ * but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it holds less.
+ */
 export interface Remaining {
-  /** The expectation. */
+  /** The expectation; with `pointing` the median. */
   readonly mean: number;
-  /** In a tenth of all movements less time remains than this. */
+  /** The lower end of the interval. */
   readonly low: number;
-  /** In a tenth of all movements more time remains than this. */
+  /** The upper end of the interval. */
   readonly high: number;
 }
 

@@ -42,7 +42,11 @@ pub struct Best {
     pub probability: f64,
 }
 
-/// The time that is left, in seconds.
+/// The time that is left, in seconds, with an interval.
+///
+/// With the papers' methods it lies between the tenth and the ninetieth percentile of the posterior of the arrival time. With
+/// `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three sets,
+/// but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it holds less.
 ///
 /// ```
 /// use whither::{Predictor, Scenario};
@@ -60,9 +64,9 @@ pub struct Best {
 pub struct Remaining {
     /// The expected time to go; of the pointing model the median, which is off by the least.
     pub mean: f64,
-    /// One in ten movements takes less.
+    /// The lower end of the interval.
     pub low: f64,
-    /// One in ten movements takes more.
+    /// The upper end of the interval.
     pub high: f64,
 }
 
@@ -281,8 +285,8 @@ impl Predictor {
         Ok(Some(arrival))
     }
 
-    /// The time to go and its 80% interval, from the posterior of the arrival time; none before the second observation and
-    /// after every node has passed.
+    /// The time to go and an interval, from the posterior of the arrival time; none before the second observation and after every
+    /// node has passed.
     pub fn remaining(&mut self) -> Option<Remaining> {
         self.refresh();
         self.track.as_mut()?.remaining(&self.scenario, &mut self.posterior, &self.destinations)

@@ -30,9 +30,10 @@ pub struct EntryTime {
     pub distance: f64,
     /// Weight of the time since the first observation: who has been long on the way is slow.
     pub elapsed: f64,
-    /// One in ten arrives before the median times `exp(low)`.
+    /// The interval begins at the median times `exp(low)`.
     pub low: f64,
-    /// One in ten arrives after the median times `exp(high)`.
+    /// The interval ends at the median times `exp(high)`; between the two are about four fifths of the recorded samples, but not a
+    /// tenth on each side.
     pub high: f64,
 }
 
@@ -86,7 +87,7 @@ impl EntryTime {
         self.distance / (self.distance + edge)
     }
 
-    /// The median, and the ends of the 80% interval, in seconds; within what a clock can tell apart.
+    /// The median, and the ends of the interval, in seconds; within what a clock can tell apart.
     #[must_use]
     pub fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
         let median =

@@ -80,7 +80,7 @@ pub struct TimeToGo {
     pub to: f64,
     /// How many nodes, evenly spaced in the logarithm.
     pub points: usize,
-    /// The median at 1000 units of length a second.
+    /// The median at 950 units of length a second, where `(speed + 50) / 1000` is one.
     pub median: f64,
     /// The deviation of the logarithm.
     pub spread: f64,

@@ -32,7 +32,7 @@ impl Posterior {
 }
 
 impl Pointing {
-    /// The median of the time to the entry into the target and its 80% interval, where the scenario has constants for it.
+    /// The median of the time to the entry into the target and its interval, where the scenario has constants for it.
     #[must_use]
     pub fn entry_time(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<[f64; 3]> {
         let entry = self.parameters().remaining.as_ref()?;
