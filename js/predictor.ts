@@ -47,8 +47,9 @@ export interface ArrivalTime {
  * How long it takes until the object enters its target, in seconds from the last observation, with an interval.
  *
  * With the papers' methods the interval lies between the tenth and the ninetieth percentile of the posterior of the arrival time.
- * With `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three sets,
- * but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it holds less.
+ * With `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three
+ * sets, but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it
+ * holds less.
  */
 export interface Remaining {
   /** The expectation; with `pointing` the median. */
@@ -138,8 +139,8 @@ export class Predictor {
 
   /**
    * The probability of each destination, in the order of {@link destinations}. They sum to `1 - none`; before the first
-   * observation, and after it alone unless its evidence counts (`initial.evidence`), they are the prior. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together have
-   * less than 1e-14.
+   * observation, and after it alone unless its evidence counts (`initial.evidence`), they are the prior. Of 4096 destinations
+   * and more, `pseudoObservation` gives 0 for those that together have less than 1e-14.
    *
    * @param into - Where to write them, so that nothing is allocated: as long as there are destinations.
    * @returns `into`, or a new array.
@@ -166,7 +167,8 @@ export class Predictor {
 
   /**
    * `log p(y_2:k | y_1, D_i)` of each destination, marginalised over the arrival time, in the order of {@link destinations};
-   * `log p(y_1:k | D_i)` where the first observation's evidence counts (`initial.evidence`). A destination that can no longer be reached in time has `-Infinity`.
+   * `log p(y_1:k | D_i)` where the first observation's evidence counts (`initial.evidence`). A destination that can no
+   * longer be reached in time has `-Infinity`.
    *
    * @param into - Where to write them: as long as there are destinations.
    * @returns `into`, or a new array.

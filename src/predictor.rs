@@ -45,8 +45,9 @@ pub struct Best {
 /// The time that is left, in seconds, with an interval.
 ///
 /// With the papers' methods it lies between the tenth and the ninetieth percentile of the posterior of the arrival time. With
-/// `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three sets,
-/// but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it holds less.
+/// `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three
+/// sets, but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices
+/// it holds less.
 ///
 /// ```
 /// use whither::{Predictor, Scenario};
@@ -230,8 +231,8 @@ impl Predictor {
     }
 
     /// `p(D_i | y_1:k)` for each destination, in order, Liang (3); they sum to `1 - none`. Before the first observation, and
-    /// after it alone unless its evidence counts (`initial.evidence`), they are the priors. Of 4096 destinations and more, `pseudoObservation` gives 0 for those that together
-    /// have less than 1e-14.
+    /// after it alone unless its evidence counts (`initial.evidence`), they are the priors. Of 4096 destinations and
+    /// more, `pseudoObservation` gives 0 for those that together have less than 1e-14.
     pub fn probabilities(&mut self) -> &[f64] {
         self.refresh();
         &self.posterior.probabilities
