@@ -338,12 +338,13 @@ export interface Pointing {
   /** How near counts as there: as a share of the target's sides. */
   readonly near: number;
   /**
-   * The mean speed from the start, in px/s, below which a pointer counts as resting where it was first observed, once `power.time`
-   * has passed: what the start says of the targets then fades, and the one that it rests on grows likely. 0: never.
+   * The distance from the start within which a pointer comes to count as resting where it was first observed: what the start says of
+   * the targets then fades, and the one that it rests on grows likely. By the time `t` it should have come
+   * `restDistance (1 - power.time / t)^2`. 0: it never rests.
    *
-   * @defaultValue 0; `pointerScenario` sets 40
+   * @defaultValue 0; `pointerScenario` sets 45
    */
-  readonly restSpeed?: number | undefined;
+  readonly restDistance?: number | undefined;
   /** How the weight of "none" grows with the power. */
   readonly noneGain: number;
   /** What is added to the log weight of "none" once the pointer moves. @defaultValue 0 */

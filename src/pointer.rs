@@ -131,7 +131,7 @@ fn pointing() -> Value {
         ("power", object(&[("from", 0.3), ("to", 1.9), ("time", 0.21)])),
         ("near", Value::Number(1.5)),
         // A pointer that rests from the first sample on may mean what it rests on.
-        ("restSpeed", Value::Number(40.0)),
+        ("restDistance", Value::Number(45.0)),
         // Calibrated with the true target taken out of half of the movements, at a prior of .2 and of .5.
         ("noneGain", Value::Number(2.1)),
         ("noneOffset", Value::Number(-0.67)),

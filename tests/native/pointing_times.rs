@@ -206,12 +206,12 @@ fn a_pointer_that_rests_may_mean_what_it_rests_on() {
     }
 }
 
-/// A scenario that does not state `restSpeed` is as before; a movement that has begun is too.
+/// A scenario that does not state `restDistance` is as before; a movement that has begun is too.
 #[test]
 fn rest_is_one_constant_more() {
     let stated = serde_json::to_value(pointer_scenario(&icons(), PointerOptions::default()).unwrap()).unwrap();
     let mut without = stated.clone();
-    without["pointing"].as_object_mut().unwrap().remove("restSpeed").unwrap();
+    without["pointing"].as_object_mut().unwrap().remove("restDistance").unwrap();
     let mut both = [&stated, &without].map(predictor);
     for (k, (time, place)) in movement([130.0, 340.0], [820.0, 100.0], 0.6, 60.0).into_iter().enumerate() {
         both.iter_mut().for_each(|pointer| pointer.observe(time, &place).unwrap());

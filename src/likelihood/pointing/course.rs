@@ -112,9 +112,10 @@ impl Observed {
 }
 
 /// How a movement stood before its last observation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Before {
     elapsed: f64,
+    farthest: f64,
     axes: [Axis; 3],
     twins: [bool; 3],
 }
@@ -123,7 +124,7 @@ struct Before {
 /// destinations fades.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Onset {
-    /// How far the pointer has fallen short of the way that `restSpeed` would have brought it from the start.
+    /// How far the pointer has fallen short of the way that it should have come from its start by now.
     pub shortfall: f64,
     /// The share of that way that it has come, at most one.
     pub share: f64,
@@ -142,6 +143,8 @@ pub struct Course {
     pub start: Vector,
     /// `t_k - t_1`.
     pub elapsed: f64,
+    /// The square of how far it has been from its start.
+    farthest: f64,
     /// How many observations there were, those that were replaced not counted.
     pub observations: u64,
     /// The axes; those beyond the dimensions stay at zero.
@@ -150,8 +153,8 @@ pub struct Course {
     twins: [bool; 3],
     /// The last observation.
     last: Observed,
-    /// None at the first observation.
-    before: Option<Before>,
+    /// Says nothing at the first observation.
+    before: Before,
 }
 
 impl Course {
@@ -170,40 +173,44 @@ impl Course {
             dimensions: position.len().min(3),
             start,
             elapsed: 0.0,
+            farthest: 0.0,
             observations: 1,
             axes,
             twins,
             last,
-            before: None,
+            before: Before { elapsed: 0.0, farthest: 0.0, axes, twins },
         }
     }
 
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
     /// of the last one it replaces that, in the axes that it has, and at the first time the movement begins with it.
     pub fn advance(&mut self, parameters: &Parameters, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
-        let mut observed = Observed::new(position, variances);
+        let (observed, d) = (Observed::new(position, variances), self.dimensions);
         if elapsed == self.elapsed {
-            observed = observed.or(&self.last);
-            let Some(before) = &self.before else {
-                let position = observed.position.map(|axis| axis.unwrap_or(0.0));
-                *self = Self::begin(parameters, &position[..self.dimensions], &observed.variances);
+            self.last = observed.or(&self.last);
+            if self.observations < 2 {
+                let position = self.last.position.map(|axis| axis.unwrap_or(0.0));
+                *self = Self::begin(parameters, &position[..d], &self.last.variances);
                 return;
-            };
-            (self.elapsed, self.axes, self.twins) = (before.elapsed, before.axes, before.twins);
+            }
+            Before { elapsed: self.elapsed, farthest: self.farthest, axes: self.axes, twins: self.twins } = self.before;
             self.observations -= 1;
+        } else {
+            self.last = observed;
+            self.before.axes[..d].copy_from_slice(&self.axes[..d]);
+            (self.before.elapsed, self.before.farthest, self.before.twins) = (self.elapsed, self.farthest, self.twins);
         }
-        self.before = Some(Before { elapsed: self.elapsed, axes: self.axes, twins: self.twins });
-        self.last = observed;
-        self.follow(parameters, elapsed, &observed);
+        self.follow(parameters, elapsed);
     }
 
-    fn follow(&mut self, parameters: &Parameters, elapsed: f64, observed: &Observed) {
-        let Observed { position, variances } = observed;
+    /// Takes in `last`.
+    fn follow(&mut self, parameters: &Parameters, elapsed: f64) {
+        let Observed { position, variances } = self.last;
         let step = elapsed - self.elapsed;
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
         let (step, mut leading) = (step.max(SHORTEST_STEP), None);
-        for (k, (observed, &variance)) in position.iter().zip(variances).enumerate().take(self.dimensions) {
+        for (k, (observed, variance)) in position.into_iter().zip(variances).enumerate().take(self.dimensions) {
             let [Axis { root, covariance, .. }, ..] = self.axes;
             let axis = &mut self.axes[k];
             axis.position += step * axis.velocity;
@@ -219,24 +226,25 @@ impl Course {
                 gain
             };
             if let (Some(gain), Some(observed)) = (&gain, observed) {
-                axis.correct_mean(gain, *observed);
+                axis.correct_mean(gain, observed);
             }
             if k == 0 {
                 leading = gain;
             }
         }
+        let way = minus(&self.position(), &self.start);
+        self.farthest = self.farthest.max(dot(&way, &way));
         self.elapsed = elapsed;
         self.observations += 1;
     }
 
-    /// How far the movement has begun, against a pointer that leaves its start at `rest_speed` once as long as `Power::time` has
-    /// passed: before that no rest can be told from a slow beginning.
+    /// How far the movement has begun: by the time `t` it should have been `restDistance (1 - power.time/t)^2` from its start, and
+    /// nothing before `power.time`, since until then no rest differs from a slow beginning.
     #[must_use]
     pub fn onset(&self, parameters: &Parameters) -> Onset {
-        let way = minus(&self.position(), &self.start);
-        let expected = parameters.rest_speed * (self.elapsed - parameters.power.time);
-        let net = dot(&way, &way).sqrt();
-        if net >= expected { Onset::BEGUN } else { Onset { shortfall: expected - net, share: net / expected } }
+        let expected = parameters.rest_distance * (1.0 - parameters.power.time / self.elapsed).max(0.0).powi(2);
+        let way = self.farthest.sqrt();
+        if way >= expected { Onset::BEGUN } else { Onset { shortfall: expected - way, share: way / expected } }
     }
 
     /// Spatial dimensions.
@@ -270,18 +278,19 @@ impl Course {
     #[must_use]
     pub fn save(&self) -> Value {
         let d = self.dimensions;
-        let last = self.last.position[..d].iter().map(|axis| axis.map_or(Value::Null, Value::exact));
-        let before = self.before.as_ref().map_or(Value::Null, |before| {
-            Value::map([("elapsed", Value::exact(before.elapsed)), ("axes", save_axes(&before.axes[..d]))])
-        });
+        let mut numbers = self.start[..d].to_vec();
+        numbers.extend(self.last.position[..d].iter().map(|axis| axis.unwrap_or(f64::NAN)));
+        numbers.extend(&self.last.variances[..d]);
+        numbers.extend([self.farthest, self.before.elapsed, self.before.farthest]);
+        for axis in self.axes[..d].iter().chain(&self.before.axes[..d]) {
+            numbers.extend([axis.position, axis.velocity]);
+            numbers.extend(axis.first);
+            numbers.extend(axis.root.as_flattened());
+        }
         Value::map([
             ("elapsed", Value::exact(self.elapsed)),
             ("observations", Value::Number(self.observations as f64)),
-            ("start", Value::exact_numbers(&self.start[..d])),
-            ("axes", save_axes(&self.axes[..d])),
-            ("last", Value::List(last.collect())),
-            ("variances", Value::exact_numbers(&self.last.variances[..d])),
-            ("before", before),
+            ("axes", Value::exact_numbers(&numbers)),
         ])
     }
 
@@ -290,49 +299,38 @@ impl Course {
     /// # Errors
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        let fields = node.fields(&["elapsed", "observations", "start", "axes", "last", "variances", "before"])?;
-        let (axes, twins) = load_axes(&fields.required("axes")?, dimensions)?;
+        let (d, each) = (dimensions, 20 * dimensions);
+        let fields = node.fields(&["elapsed", "observations", "axes"])?;
+        let numbers = fields.required("axes")?.exact_numbers(3 * (d + 1) + 2 * each)?;
+        let (axes, twins) = load_axes(&numbers[3 * (d + 1)..][..each]);
+        let (axes_before, twins_before) = load_axes(&numbers[3 * (d + 1) + each..]);
+        let [farthest, elapsed_before, farthest_before] = vector(&numbers[3 * d..]);
+        let before =
+            Before { elapsed: elapsed_before, farthest: farthest_before, axes: axes_before, twins: twins_before };
         let mut position = [None; 3];
-        for (axis, item) in position.iter_mut().zip(fields.required("last")?.items()?) {
-            *axis = if *item.value() == Value::Null { None } else { Some(item.exact()?) };
+        for (axis, &number) in position.iter_mut().zip(&numbers[d..2 * d]) {
+            *axis = (!number.is_nan()).then_some(number);
         }
-        let variances = vector(&fields.required("variances")?.exact_numbers(dimensions)?);
-        let before = fields.optional("before").map(|before| {
-            let fields = before.fields(&["elapsed", "axes"])?;
-            let (axes, twins) = load_axes(&fields.required("axes")?, dimensions)?;
-            Ok(Before { elapsed: fields.required("elapsed")?.exact()?, axes, twins })
-        });
         Ok(Self {
             dimensions,
-            start: vector(&fields.required("start")?.exact_numbers(dimensions)?),
+            start: vector(&numbers[..d]),
             elapsed: fields.required("elapsed")?.exact()?,
             observations: fields.positive("observations")? as u64,
             axes,
             twins,
-            last: Observed { position, variances },
-            before: before.transpose()?,
+            last: Observed { position, variances: vector(&numbers[2 * d..3 * d]) },
+            before,
+            farthest,
         })
     }
 }
 
-fn save_axes(axes: &[Axis]) -> Value {
-    let mut numbers = Vec::new();
-    for axis in axes {
-        numbers.extend([axis.position, axis.velocity]);
-        numbers.extend(axis.first);
-        numbers.extend(axis.root.as_flattened());
-    }
-    Value::exact_numbers(&numbers)
-}
-
 /// The axes, and which are twins of the first.
-fn load_axes(node: &Node<'_>, dimensions: usize) -> Result<([Axis; 3], [bool; 3])> {
-    const EACH: usize = 20;
-    let numbers = node.exact_numbers(dimensions * EACH)?;
+fn load_axes(numbers: &[f64]) -> ([Axis; 3], [bool; 3]) {
     let mut axes = [Axis::begin(0.0, 0.0, 0.0); 3];
-    for (axis, n) in axes.iter_mut().zip(numbers.chunks_exact(EACH)) {
+    for (axis, n) in axes.iter_mut().zip(numbers.chunks_exact(20)) {
         let root = std::array::from_fn(|i| std::array::from_fn(|j| n[4 + 4 * i + j]));
         *axis = Axis::of(root, [n[2], n[3]], [n[0], n[1]]);
     }
-    Ok((axes, axes.map(|axis| axis.root == axes[0].root)))
+    (axes, axes.map(|axis| axis.root == axes[0].root))
 }

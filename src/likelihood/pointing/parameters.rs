@@ -50,9 +50,10 @@ pub struct Parameters {
     pub power: Power,
     /// Distance from the start, in target sizes, below which a destination is unlikely.
     pub near: f64,
-    /// Mean speed from the start below which a pointer has not begun to move, so that what the start says fades: `near` in
-    /// proportion, the start density by a core that grows with the way that is missing. 0: never.
-    pub rest_speed: f64,
+    /// Distance from the start within which a pointer comes to count as resting there, the longer the more (`Course::onset`), so
+    /// that what the start says fades: `near` in proportion, the start density by a core that grows with the way that is missing.
+    /// 0: never.
+    pub rest_distance: f64,
     /// What a destination has to gain before it counts against "none".
     pub none_gain: f64,
     /// What is added to the log weight of "none" once the pointer moves.
@@ -165,7 +166,7 @@ const KEYS: [&str; 14] = [
     "direction",
     "power",
     "near",
-    "restSpeed",
+    "restDistance",
     "noneGain",
     "noneOffset",
     "noneShare",
@@ -203,7 +204,7 @@ impl Parameters {
             direction: Direction::read(&fields.required("direction")?)?,
             power: Power::read(&fields.required("power")?)?,
             near: fields.not_negative("near")?,
-            rest_speed: fields.optional("restSpeed").map_or(Ok(0.0), |node| node.not_negative())?,
+            rest_distance: fields.optional("restDistance").map_or(Ok(0.0), |node| node.not_negative())?,
             none_gain: fields.number("noneGain")?,
             none_offset: fields.optional("noneOffset").map_or(Ok(0.0), |node| node.number())?,
             none_share: fields.optional("noneShare").map_or(Ok(0.0), |node| read_share(&node))?,
@@ -225,7 +226,7 @@ impl Parameters {
             ("direction", self.direction.to_value()),
             ("power", self.power.to_value()),
             ("near", number(self.near)),
-            ("restSpeed", number(self.rest_speed)),
+            ("restDistance", number(self.rest_distance)),
             ("noneGain", number(self.none_gain)),
             ("noneOffset", number(self.none_offset)),
             ("noneShare", number(self.none_share)),
