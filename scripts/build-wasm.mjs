@@ -3,9 +3,11 @@
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { join } from "node:path";
+import { compile } from "./cargo.mjs";
 import { incremental } from "./incremental.mjs";
 import { answer, main, root, run } from "./run.mjs";
 import { setUp } from "./setup.mjs";
+import { during } from "./stage.mjs";
 
 const target = "wasm32-unknown-unknown";
 const generated = "js/generated";
@@ -34,25 +36,28 @@ export async function buildWasm() {
   const compiled = modules.map(({ name }) => `target/wasm/${name}.wasm`);
   // Cargo by itself would compile all whenever it is asked, since they come to the same place.
   const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
-  await incremental("wasm-modules", { inputs: sources, outputs: compiled }, async () => {
-    for (const [i, { features }] of modules.entries()) await compile(features, compiled[i]);
+  await incremental("wasm-modules", { inputs: sources, outputs: compiled, doing: null }, async () => {
+    for (const [i, module] of modules.entries()) await toWasm(module, compiled[i]);
   });
   const inputs = [...compiled, "Cargo.lock", "xtask", "package-lock.json", "scripts/build-wasm.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
-  await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`) }, async () => {
+  await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`), doing: null }, async () => {
     rmSync(join(root, generated), { recursive: true, force: true });
+    await compileTools();
     for (const [i, { name, bytes }] of modules.entries()) {
       const snipped = `target/wasm/${name}.snipped.wasm`;
       await xtask("snip", compiled[i], snipped);
       await bindgen(snipped, name);
-      await optimise(name);
-      await embed(name, bytes);
+      await during(`making ${name}.wasm small`, async () => {
+        await optimise(name);
+        await embed(name, bytes);
+      });
     }
   });
 }
 
 /** These flags replace those of .cargo/config.toml. */
-async function compile(features, file) {
+async function toWasm({ name, features }, file) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
@@ -65,13 +70,18 @@ async function compile(features, file) {
   ];
   const parts = ["--no-default-features", "--features", features.join()];
   const args = ["build", "--lib", ...parts, "--target", target, "--profile", "wasm", "--target-dir", "target"];
-  await run("cargo", args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
+  await compile(`compiling ${name} to WebAssembly`, args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
   mkdirSync(join(root, file, ".."), { recursive: true });
   copyFileSync(join(root, `target/${target}/wasm/whither.wasm`), join(root, file));
 }
 
+const tools = ["--package", "xtask", "--profile", "xtask", "--target-dir", "target"];
+
+/** The tools of xtask/, wasm-bindgen among them, which take minutes the first time. */
+export const compileTools = () => compile("compiling the tools for WebAssembly, once", ["build", ...tools]);
+
 function xtask(...args) {
-  return run("cargo", ["run", "--quiet", "--package", "xtask", "--profile", "xtask", "--target-dir", "target", "--", ...args]);
+  return run("cargo", ["run", "--quiet", ...tools, "--", ...args]);
 }
 
 function bindgen(snipped, name) {

@@ -23,7 +23,7 @@ export async function build() {
   await buildWasm();
   const inputs = ["js", "tsconfig.json", "package.json", "package-lock.json", "scripts/build.mjs"];
   const outputs = ["dist/index.js", "dist/types/index.d.ts", "dist/whither.wasm", "dist/pointing.wasm"];
-  await incremental("dist", { inputs, outputs }, async () => {
+  await incremental("dist", { inputs, outputs, doing: "building the package, dist/" }, async () => {
     await run("node", ["node_modules/typescript/bin/tsc", "--project", "tsconfig.json"]);
     rmSync(dist, { recursive: true, force: true });
     await bundle();

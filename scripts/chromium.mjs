@@ -1,6 +1,7 @@
 // The browser of the tests: the Chromium or Chrome that is installed.
 import { existsSync } from "node:fs";
 import { answer, Failure, run } from "./run.mjs";
+import { during } from "./stage.mjs";
 
 const programs = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome"];
 const places = [
@@ -27,8 +28,10 @@ export async function ensureChromium() {
   if ((await find()) !== null) return;
   if (process.getuid?.() === 0 && (await answer("apt-get", ["--version"])) !== null) {
     const env = { DEBIAN_FRONTEND: "noninteractive" };
-    await run("apt-get", ["update", "--quiet", "--quiet"], { env });
-    await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "chromium"], { env });
+    await during("installing Chromium", async () => {
+      await run("apt-get", ["update", "--quiet", "--quiet"], { env });
+      await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "chromium"], { env });
+    });
   }
   if ((await find()) !== null) return;
   throw new Failure(

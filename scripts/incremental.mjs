@@ -3,17 +3,19 @@ import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { root } from "./run.mjs";
+import { during } from "./stage.mjs";
 
 /**
  * Does `work` unless it was done before with the same `inputs` (files and folders, by their content) and its `outputs` are
- * still there. Paths are relative to the repository; what is in `ignore` does not count.
+ * still there. Paths are relative to the repository; what is in `ignore` does not count. It is told as `doing` while it is
+ * done, unless that is null: then `work` tells its own stages.
  */
-export async function incremental(name, { inputs, ignore = null, outputs }, work) {
+export async function incremental(name, { inputs, ignore = null, outputs, doing = `building ${name}` }, work) {
   const stamp = join(root, "target/stamps", name);
   const now = contentHash(inputs, ignore);
   const done = existsSync(stamp) && readFileSync(stamp, "utf8") === now;
   if (done && outputs.every((output) => existsSync(join(root, output)))) return;
-  await work();
+  await (doing === null ? work() : during(doing, work));
   mkdirSync(join(stamp, ".."), { recursive: true });
   writeFileSync(stamp, now);
 }

@@ -9,7 +9,7 @@ export const root = fileURLToPath(new URL("..", import.meta.url));
  * The user's environment, but for the compiler flags in it: they would silently replace those of .cargo/config.toml, SIMD among
  * them, and reach what builds the package.
  */
-const environment = { ...process.env };
+export const environment = { ...process.env };
 delete environment.RUSTFLAGS;
 delete environment.CARGO_ENCODED_RUSTFLAGS;
 
@@ -18,9 +18,9 @@ export class Failure extends Error {}
 
 /**
  * Runs a program in the repository and gives its exit code and what it printed.
- * With `show`, the output also goes to the terminal as it comes.
+ * With `show`, the output also goes to the terminal as it comes; `watch` is given it as it comes.
  */
-export function capture(program, args, { env = {}, cwd = root, show = false } = {}) {
+export function capture(program, args, { env = {}, cwd = root, show = false, watch } = {}) {
   return new Promise((resolve, reject) => {
     const child = spawn(program, args, {
       cwd,
@@ -34,6 +34,7 @@ export function capture(program, args, { env = {}, cwd = root, show = false } = 
       child[stream].setEncoding("utf8").on("data", (text) => {
         output += text;
         if (show) process[stream].write(text);
+        watch?.(text);
       });
     }
     child.on("error", reject);

@@ -33,7 +33,8 @@ async function ensureRust() {
 }
 
 async function ensurePackages() {
-  const places = { inputs: ["package-lock.json"], outputs: ["node_modules/.package-lock.json"] };
+  const doing = "installing the packages that package-lock.json names";
+  const places = { inputs: ["package-lock.json"], outputs: ["node_modules/.package-lock.json"], doing };
   await incremental("node_modules", places, () =>
     run("npm", ["ci", "--no-audit", "--no-fund", "--loglevel=error"], { cwd: root }),
   );

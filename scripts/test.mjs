@@ -1,15 +1,20 @@
-// `npm test`: all set-up and every test. `npm test -- rust wasm js package browser` runs the parts that are named.
+// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js package browser` runs the parts that are named.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
 import { buildDemo } from "./build-demo.mjs";
+import { compileTools } from "./build-wasm.mjs";
 import { ensureChromium } from "./chromium.mjs";
+import { countCargo, countNode, inWords, nodeArguments } from "./count.mjs";
 import { capture, Failure, main, root } from "./run.mjs";
 import { setUp } from "./setup.mjs";
 
 const wasmTarget = ["--target", "wasm32-unknown-unknown"];
 
 const parts = {
+  async scripts() {
+    await tests("node", nodeTests("tests/scripts"));
+  },
   async rust() {
     await check("cargo", ["fmt", "--all", "--check"]);
     // with the packages that no test builds: the benchmark and what npm run evaluate and npm run reproduce start
@@ -24,6 +29,8 @@ const parts = {
     await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);
   },
   async wasm() {
+    // the runner of these tests
+    await compileTools();
     // Without the feature: its classes import js/error.ts, which only the built package has. tests/js runs those.
     await tests("cargo", ["test", ...wasmTarget, "--test", "wasm"]);
   },
@@ -54,16 +61,7 @@ async function check(program, args, env) {
 /** A run of a test runner, which says how many tests there were. */
 async function tests(program, args, env) {
   await record(program, args, env, ({ code, output }) => {
-    const counts = { passed: 0, failed: 0, skipped: 0 };
-    for (const [, passed, failed, skipped] of output.matchAll(/^test result: .* (\d+) passed; (\d+) failed; (\d+) ignored/gm)) {
-      counts.passed += Number(passed);
-      counts.failed += Number(failed);
-      counts.skipped += Number(skipped);
-    }
-    const names = { pass: "passed", fail: "failed", cancelled: "failed", skipped: "skipped", todo: "failed" };
-    for (const [, name, count] of output.matchAll(/^\S+ (pass|fail|cancelled|skipped|todo) (\d+)$/gm)) {
-      counts[names[name]] += Number(count);
-    }
+    const counts = program === "cargo" ? countCargo(output) : countNode(output);
     // A runner that fails without a failed test did not get as far; one that runs no test shows nothing.
     if (counts.failed === 0 && (code !== 0 || counts.passed === 0)) counts.failed = 1;
     return counts;
@@ -71,7 +69,7 @@ async function tests(program, args, env) {
 }
 
 async function record(program, args, env, count) {
-  const name = [program, ...args].join(" ");
+  const name = [program, ...args].filter((arg) => !arg.startsWith("--test-reporter")).join(" ");
   console.log(`\n> ${name}`);
   const start = Date.now();
   const counts = count(await capture(program, args, { env, show: true }));
@@ -80,7 +78,7 @@ async function record(program, args, env, count) {
 
 function nodeTests(folder) {
   const files = readdirSync(join(root, folder)).filter((name) => name.endsWith(".test.mjs"));
-  return ["--test", "--test-reporter=spec", ...files.sort().map((name) => `${folder}/${name}`)];
+  return nodeArguments(files.sort().map((name) => `${folder}/${name}`));
 }
 
 function summary() {
@@ -93,10 +91,6 @@ function summary() {
   }
   console.log(`\n${inWords(total)}`);
   return total.failed === 0;
-}
-
-function inWords({ passed, failed, skipped }) {
-  return `${passed} passed, ${failed} failed${skipped > 0 ? `, ${skipped} skipped` : ""}`;
 }
 
 await main(import.meta.url, async () => {

@@ -1,18 +1,20 @@
-// Recorded hands on the same page. The recordings are not part of the project: without them this says so and is skipped.
+// Recorded hands on the same page. The recordings are not part of the project: without the folder of them that RECORDINGS names
+// this says so, and counts as skipped.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
+import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { launch, middles, mouse, open, read, serve } from "./support.mjs";
 
-const DATA = new URL("../../../shared/data/", import.meta.url);
+const DATA = process.env.RECORDINGS ?? "";
 const SETS = [
   ["sapimouse.jsonl", 20],
   ["bunch_mouse.jsonl", 15],
   ["freihaut_pointclick.jsonl", 15],
 ];
-const absent = SETS.map(([name]) => name).filter((name) => !existsSync(new URL(name, DATA)));
-const skip = absent.length > 0 && `the recorded tracks ${absent.join(", ")} are not beside the project, in ../shared/data`;
+const absent = SETS.map(([name]) => name).filter((name) => !existsSync(join(DATA, name)));
+const skip = absent.length > 0 && `RECORDINGS names no folder that has the recorded tracks ${absent.join(", ")}`;
 
 describe("recorded hands", { skip }, () => {
   let host, browser;
@@ -66,7 +68,7 @@ describe("recorded hands", { skip }, () => {
 
 /** Tracks from all over a file. */
 async function evenly(name, wanted) {
-  const lines = (await readFile(new URL(name, DATA), "utf8")).trim().split("\n");
+  const lines = (await readFile(join(DATA, name), "utf8")).trim().split("\n");
   return Array.from({ length: wanted }, (_, index) => JSON.parse(lines[Math.floor(((index + 0.5) * lines.length) / wanted)]));
 }
 

@@ -15,8 +15,8 @@ pub const PRIORS: [f64; 2] = [0.2, 0.5];
 /// What one track says.
 #[derive(Debug, Default)]
 pub struct Answers {
-    /// Samples, sum of absolute errors in seconds, samples within the interval.
-    when: [f64; 3],
+    /// Samples, sum of absolute errors in seconds, samples that enter before the 80% interval, samples that enter after it.
+    when: [f64; 4],
     none: [NoneAnswers; PRIORS.len()],
 }
 
@@ -30,7 +30,7 @@ struct NoneAnswers {
 /// What a set of tracks says.
 #[derive(Debug, Default)]
 pub struct Sums {
-    when: [f64; 3],
+    when: [f64; 4],
     /// Movements, and the sum of their mean absolute errors.
     movements: [f64; 2],
     bins: [[Bin; BINS]; PRIORS.len()],
@@ -49,8 +49,9 @@ pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -
         predictor.observe(sample.time, &sample.position).map_err(told)?;
         let Some(remaining) = predictor.remaining() else { continue };
         let true_time = end - sample.time;
-        let within = remaining.low <= true_time && true_time <= remaining.high;
-        let found = [1.0, (remaining.mean - true_time).abs(), f64::from(u8::from(within))];
+        let one_if = |yes: bool| f64::from(u8::from(yes));
+        let (before, after) = (one_if(true_time < remaining.low), one_if(true_time > remaining.high));
+        let found = [1.0, (remaining.mean - true_time).abs(), before, after];
         answers.when.iter_mut().zip(found).for_each(|(to, from)| *to += from);
     }
     let absent = (number.wrapping_mul(2_654_435_761) >> 7).is_multiple_of(2) && track.targets.len() > 1;
@@ -82,7 +83,7 @@ impl Sums {
     /// Adds one track's answers.
     pub fn add(&mut self, answers: &Answers) {
         self.when.iter_mut().zip(answers.when).for_each(|(to, from)| *to += from);
-        let [samples, error, _] = answers.when;
+        let [samples, error, ..] = answers.when;
         if samples > 0.0 {
             self.movements[0] += 1.0;
             self.movements[1] += error / samples;
@@ -98,9 +99,11 @@ impl Sums {
     }
 
     fn row(&self) -> Vec<f64> {
-        let [samples, error, within] = self.when;
+        let [samples, error, before, after] = self.when;
         let [movements, errors] = self.movements;
-        let mut row = vec![error / samples.max(1.0), errors / movements.max(1.0), within / samples.max(1.0)];
+        let share = |count: f64| count / samples.max(1.0);
+        let mut row = vec![share(error), errors / movements.max(1.0)];
+        row.extend([share(samples - before - after), share(before), share(after)]);
         for (bins, late) in self.bins.iter().zip(&self.late) {
             row.extend([calibration_error(bins), area_under_curve(late)]);
         }
@@ -127,10 +130,10 @@ fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
 
 /// Prints a table, and gives the same as JSON.
 pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
-    let mut header = vec!["set", "time to the entry: error over samples, s", "over movements, s", "within the 80%"]
-        .into_iter()
-        .map(str::to_owned)
-        .collect::<Vec<_>>();
+    let when =
+        ["time to the entry: error over samples, s", "over movements, s", "within the 80%", "before it", "after it"];
+    let mut header = vec!["set".to_owned()];
+    header.extend(when.map(str::to_owned));
     for prior in PRIORS {
         header.push(format!("none at {prior}: calibration error"));
         header.push("area under the curve at 90%".to_owned());
@@ -142,8 +145,14 @@ pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
         table.add_row([vec![name.clone()], row.iter().map(|x| format!("{x:.3}")).collect()].concat());
         all.insert(
             name.clone(),
-            json!({ "remaining": { "error": row[0], "byMovement": row[1], "within": row[2] }, "none": PRIORS.iter().enumerate().map(
-                |(k, prior)| json!({ "prior": prior, "calibration": row[3 + 2 * k], "area": row[4 + 2 * k] })).collect::<Vec<_>>() }),
+            json!({
+                "remaining": {
+                    "error": row[0], "byMovement": row[1], "within": row[2], "before": row[3], "after": row[4],
+                },
+                "none": PRIORS.iter().zip(row[5..].chunks(2)).map(|(prior, pair)| {
+                    json!({ "prior": prior, "calibration": pair[0], "area": pair[1] })
+                }).collect::<Vec<_>>(),
+            }),
         );
     }
     println!("\nwhen, and none of them (the true target taken out of half of the tracks)\n{table}");

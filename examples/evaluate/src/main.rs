@@ -38,6 +38,7 @@ const NOTHING: &str = "nothing to score: too few tracks enter their target";
 
 /// Scores predictors on recorded movements.
 #[derive(Debug, Parser)]
+#[command(name = "npm run evaluate --")]
 struct Arguments {
     /// Files of tracks, one JSON object a line: {"id"?, "user"?, "targets": [[x, y, width, height], ...] about their centres,
     /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z].
@@ -220,6 +221,12 @@ fn score(
 mod tests {
     use super::*;
     use clap::CommandFactory;
+
+    #[test]
+    fn the_help_is_what_scripts_print_without_compiling() {
+        let help = Arguments::command().term_width(100).render_long_help().to_string();
+        assert_eq!(include_str!("../help.txt"), help, "examples/evaluate/help.txt has to be:\n{help}");
+    }
 
     #[test]
     fn the_command_line_is_sound_and_says_what_does_not_go_together() {

@@ -117,9 +117,9 @@ impl Vibration {
     }
 }
 
-/// Every `every`-th recorded gesture, in metres, if the recordings are there.
+/// Every `every`-th recorded gesture, in metres, if the folder that `RECORDINGS` names has them.
 pub fn recorded(every: usize) -> Option<Vec<Gesture>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/fitts3d_midair.jsonl");
+    let path = Path::new(&std::env::var_os("RECORDINGS")?).join("fitts3d_midair.jsonl");
     let text = std::fs::read_to_string(path).ok()?;
     text.lines().step_by(every).map(read).collect()
 }

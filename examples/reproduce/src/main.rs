@@ -70,3 +70,15 @@ fn main() -> ExitCode {
     println!("target/reproduce/index.html ({:.0} s)", start.elapsed().as_secs_f64());
     ExitCode::SUCCESS
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_help_is_what_scripts_print_without_compiling() {
+        let help = Arguments::command().term_width(100).render_long_help().to_string();
+        assert_eq!(include_str!("../help.txt"), help, "examples/reproduce/help.txt has to be:\n{help}");
+    }
+}

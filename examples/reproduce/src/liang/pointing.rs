@@ -57,7 +57,7 @@ pub fn exhibits(effort: Effort, progress: &ProgressBar) -> Vec<Exhibit> {
             progress,
         )),
         None => {
-            println!("  (../shared/data/fitts3d_midair.jsonl is not there: no recorded gestures)\n");
+            println!("  (no recorded gestures: RECORDINGS names no folder that has fitts3d_midair.jsonl)\n");
             progress.inc((METHODS.len() + SIGMAS.len()) as u64);
         }
     }
