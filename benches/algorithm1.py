@@ -1,5 +1,6 @@
 """Literal Algorithm 1 of Liang et al. in numpy: for each destination and arrival time a Kalman filter of its own, corrected
-with the observation and with the pseudo-observation of the endpoint. Constant velocity in two dimensions.
+with the observation and with the pseudo-observation of the endpoint, position and velocity. Constant velocity in two
+dimensions.
 
 Reads { scenario, observations } from the file that is named, prints JSON: the seconds of processor time that one observation
 takes, and the probabilities at the end."""
@@ -15,7 +16,10 @@ EYE = np.eye(2)
 NOISE, DEVIATION = scenario["motion"]["noise"], scenario["observation"]["noise"]
 G = np.hstack([EYE, np.zeros((2, 2))])
 V = DEVIATION**2 * EYE
-ENDPOINTS = [(np.array(d["center"]), np.diag(np.square(d["size"]) / 12)) for d in scenario["destinations"]]
+ENDPOINTS = [
+    (np.array(d["center"] + [0.0, 0.0]), np.diag(np.append(np.square(d["size"]) / 12, [d["endVelocity"] ** 2] * 2)))
+    for d in scenario["destinations"]
+]
 POINTS = scenario["quadrature"]["points"]
 ARRIVALS = np.linspace(scenario["arrival"]["from"], scenario["arrival"]["to"], POINTS)
 SIMPSON = np.array([1.0] + [4.0, 2.0] * ((POINTS - 3) // 2) + [4.0, 1.0])
@@ -50,7 +54,7 @@ for (before, *_), (now, *position) in zip(observations, observations[1:]):
         for n, arrival in enumerate(ARRIVALS):
             # (10): the state now, given that it arrives there and then; (11): the density of the observation from it
             ahead, rest = transition(first + arrival - now)
-            there, wide = correct(mean, covariance, G @ ahead, G @ rest @ G.T + S, a)
+            there, wide = correct(mean, covariance, ahead, rest + S, a)
             log_likelihood[i, n] += log_density(y - G @ there, G @ wide @ G.T + V)
     mean, covariance = correct(mean, covariance, G, V, y)
     # (6) and (3)

@@ -74,8 +74,9 @@ globalThis.measure = async (quick) => {
   await init();
   const options = effort(quick);
   const progress = (name) => globalThis.progress(`Chromium: ${name}`);
+  const whither = { Predictor, pointerScenario };
   return {
-    cases: await measureCases({ Predictor, pointerScenario }, cases({ quick }), clock, options, progress),
+    ...(await measureCases("in Chromium", whither, cases({ quick }), clock, options, progress)),
     foresight: (await progress("ForesightJS, one pointer event"), await measureForesight(options)),
   };
 };

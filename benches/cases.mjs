@@ -8,7 +8,7 @@ const LENGTH = 40;
 
 const PAPERS = ["pseudoObservation", "singleFilterApproximate", "algorithm1", "bridging", "algorithm2", "singleFilter"];
 
-/** Design section 5: what a step may cost, against as many `Math.exp` as there are pairs of destination and node. */
+/** What a step may cost, against as many `Math.exp` as there are pairs of destination and node. */
 const budgets = [
   { count: 21, limit: 0.6, stretch: 0.45 },
   { count: 10_000, limit: 0.3, stretch: 0.2 },
@@ -22,6 +22,12 @@ const budgets = [
   { count: 21, sizes: "own", method: "pointing", limit: 0.9, stretch: 0.7 },
   { count: 10_000, sizes: "own", method: "pointing", limit: 0.55, stretch: 0.45 },
 ];
+
+/** What is done once a movement or less: how many ordinary steps of 10 000 it may cost. */
+export const seldomLimits = { first: 3, setDestinations: 40, constructing: 50 };
+
+/** The rows of its table. */
+export const seldom = ["pseudoObservation", "pointing"].map((method) => complete({ group: "seldom", method, count: 10_000 }));
 
 /**
  * `{ group, name, count, pairs, ... }`: `length` is that of a movement, where it has to end; `before` the number of

@@ -2,10 +2,10 @@
 import { writeFileSync } from "node:fs";
 import kalman from "kalman-filter";
 import { init, pointerScenario, Predictor } from "whither";
-import { cases } from "./cases.mjs";
+import { cases, seldom } from "./cases.mjs";
 import { interleave } from "./measure.mjs";
 import { sweep } from "./scenarios.mjs";
-import { effort, measureCases, step } from "./suite.mjs";
+import { effort, measureCases, measureSeldom, step } from "./suite.mjs";
 
 const [file, quick] = [process.argv[2], process.argv[3] === "--quick"];
 const clock = () => {
@@ -42,7 +42,12 @@ function measureKalmanFilter(options) {
 const options = effort(quick);
 const result = {
   version: process.version,
-  cases: await measureCases(whither, cases({ quick }), clock, options, progress),
+  ...(await measureCases("in Node", whither, cases({ quick }), clock, options, progress)),
+  seldom: {},
   kalmanFilter: measureKalmanFilter(options),
 };
+for (const row of seldom) {
+  progress(row.name);
+  result.seldom[row.method] = await measureSeldom(whither, row, clock, options);
+}
 writeFileSync(file, JSON.stringify(result));

@@ -2,6 +2,7 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { answer, root, run } from "../scripts/run.mjs";
+import { during } from "../scripts/stage.mjs";
 import { INTERVAL, scenario, sweep } from "./scenarios.mjs";
 
 /** A Python with numpy; null where there is none. */
@@ -19,8 +20,10 @@ async function findOrInstall() {
   if (found !== null || process.getuid?.() !== 0 || (await answer("apt-get", ["--version"])) === null) return found;
   const env = { DEBIAN_FRONTEND: "noninteractive" };
   try {
-    await run("apt-get", ["update", "--quiet", "--quiet"], { env });
-    await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "python3-numpy"], { env });
+    await during("installing numpy", async () => {
+      await run("apt-get", ["update", "--quiet", "--quiet"], { env });
+      await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "python3-numpy"], { env });
+    });
   } catch {
     return null; // the table says that it is missing
   }

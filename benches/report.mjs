@@ -1,6 +1,7 @@
 // The tables of `npm run bench`.
 import { showSizes } from "../scripts/size.mjs";
 import { table } from "../scripts/table.mjs";
+import { seldomLimits } from "./cases.mjs";
 import { line } from "./measure.mjs";
 
 const count = (n) => n.toLocaleString("en-GB");
@@ -18,7 +19,13 @@ export function report(result) {
     ["native", result.native.cases],
   ];
   const of = (group) => result.cases.filter((one) => one.group === group);
+  showUnit([
+    ["Node", node.exp],
+    ["Chromium", chromium.exp],
+    ["native", result.native.exp],
+  ]);
   showBudgets(of("budget"), platforms);
+  showSeldom(node.seldom);
   showGrowth(of, platforms);
   showObservations(of("observations"), platforms);
   showMethods(of("methods"), platforms);
@@ -37,13 +44,21 @@ export function report(result) {
   showSizes(result.sizes);
 }
 
+function showUnit(platforms) {
+  console.log("The unit, a call of `exp`, in nanoseconds: the faster of two ways that have to agree:\n");
+  table(
+    ["", "plain loop", "unrolled loop"],
+    platforms.map(([name, { plain, unrolled }]) => [name, digits(plain), digits(unrolled)]),
+  );
+}
+
 function describe({ method, sizes, coupled }) {
   if (method === "pointing") return sizes === "own" ? "pointing, each its size" : "pointing";
   return coupled ? "coupled noise" : sizes === "own" ? "each its size" : "one size";
 }
 
 function showBudgets(rows, platforms) {
-  console.log("One `observe` and `probabilities(into)`, 2-D, q = 15 (pointing: 14 densities), against N q calls of `Math.exp`:\n");
+  console.log("One `observe` and `probabilities(into)`, 2-D, q = 15 (pointing: 14 densities), against N q calls of `exp`:\n");
   const node = platforms[0][1];
   table(
     ["", "N", "Node, µs", ...platforms.map(([name]) => `${name}, ratio`), "at most", "stretch", "in Node"],
@@ -57,6 +72,18 @@ function showBudgets(rows, platforms) {
       met(node[one.name].ratio <= one.limit),
     ]),
   );
+}
+
+function showSeldom(methods) {
+  console.log("What is done once a movement or less, with the step that follows, in ordinary steps of 10 000, Node:\n");
+  const names = { first: "first observation", setDestinations: "`setDestinations`", constructing: "constructing" };
+  const cells = Object.entries(methods).flatMap(([method, times]) =>
+    Object.entries(names).map(([key, name]) => {
+      const { microseconds, ratio } = times[key];
+      return [`${method}, ${name}`, digits(microseconds), digits(ratio), seldomLimits[key], met(ratio <= seldomLimits[key])];
+    }),
+  );
+  table(["", "µs", "steps", "at most", ""], cells);
 }
 
 /** The exponent of a power law through the points. */

@@ -13,6 +13,7 @@ function paperScenario({ count, points = 15, dimensions = 2, sizes = "one", scre
     id: `d${i}`,
     center: axes.map((axis) => extent[axis] * (0.5 + screens * (fraction(i, spread[axis]) - 0.5))),
     size: axes.map((axis) => side(i, axis, sizes)),
+    endVelocity: 200,
   }));
   return {
     motion: coupled ? correlated(dimensions) : { type: "constantVelocity", dimensions, noise: 3000 },

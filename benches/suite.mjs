@@ -1,6 +1,7 @@
 // The measurements that run alike in Node and in a browser, through the public class with its checks.
 import { interleave } from "./measure.mjs";
 import { exponents, INTERVAL, scenario, sweep } from "./scenarios.mjs";
+import { checkUnit, unit, ways } from "./yardstick.mjs";
 
 /** How long each is measured: rounds, and the least milliseconds of one and of what comes before. */
 export const effort = (quick) => (quick ? { rounds: 5, least: 3, warmUp: 30 } : { rounds: 15, least: 8, warmUp: 200 });
@@ -23,11 +24,12 @@ export function step({ Predictor, pointerScenario }, { length = Infinity, before
 }
 
 /**
- * Each case against as many `Math.exp` as it has pairs, in the same rounds: `{ microseconds, ratio }` by name.
- * `progress` is told the name of each before it begins.
+ * Each case against as many `Math.exp` as it has pairs, in the same rounds: `{ microseconds, ratio }` by name, and what a call
+ * takes in either way, in nanoseconds. `progress` is told the name of each before it begins; `where` names the engine.
  */
-export async function measureCases(whither, list, clock, options, progress) {
+export async function measureCases(where, whither, list, clock, options, progress) {
   const results = {};
+  const units = [];
   // an engine compiles well only what has run for a while, and does so beside what runs
   await progress("warm-up");
   const first = step(whither, list[0]);
@@ -36,20 +38,49 @@ export async function measureCases(whither, list, clock, options, progress) {
   for (const one of list) {
     await progress(one.name);
     const { run, predictor } = step(whither, one);
-    const time = interleave([{ name: "exp", run: exponentials(one.pairs) }, { name: "step", run }], clock, options);
+    const time = interleave([...ways(exponents(one.pairs)), { name: "step", run }], clock, options);
     predictor.free();
-    results[one.name] = { microseconds: 1000 * time.step, ratio: time.step / time.exp };
+    results[one.name] = { microseconds: 1000 * time.step, ratio: time.step / unit(time) };
+    const nanoseconds = (milliseconds) => (1e6 * milliseconds) / one.pairs;
+    units.push({ plain: nanoseconds(time.plain), unrolled: nanoseconds(time.unrolled) });
   }
-  return results;
+  return { cases: results, exp: checkUnit(where, units) };
 }
 
-/** So many calls of `Math.exp`: the unit of the tables. */
-function exponentials(count) {
-  const numbers = exponents(count);
-  let sink = 0;
-  return (times) => {
-    // a little less each time, so that no call can be left out
-    for (let k = 0; k < times; k++) for (let i = 0; i < count; i++) sink += Math.exp(numbers[i] - k * 1e-9);
-    return sink;
+/**
+ * What is done once a movement or less, by name, against an ordinary step in the same rounds; each with the observation and the
+ * probabilities that follow, so that nothing is put off.
+ */
+export async function measureSeldom({ Predictor, pointerScenario }, row, clock, options) {
+  const { run, predictor } = step({ Predictor, pointerScenario }, row);
+  const given = scenario(row, pointerScenario);
+  const moved = (by) => given.destinations.map((one) => ({ ...one, center: one.center.map((x) => x + by) }));
+  const lists = [moved(0), moved(1)];
+  const into = new Float64Array(row.count);
+  let k = 0;
+  const begin = (of) => {
+    of.observe(INTERVAL * k, [960, 540]);
+    of.probabilities(into);
   };
+  const repeat = (work) => (times) => {
+    for (let i = 0; i < times; i++, k++) work();
+  };
+  const others = new Predictor(given);
+  const entries = [
+    { name: "step", run },
+    { name: "first", run: repeat(() => (others.reset(), begin(others))) },
+    { name: "setDestinations", run: repeat(() => (others.setDestinations(lists[k & 1]), begin(others))) },
+    {
+      name: "constructing",
+      run: repeat(() => {
+        const made = new Predictor(given);
+        begin(made);
+        made.free();
+      }),
+    },
+  ];
+  const time = interleave(entries, clock, options);
+  for (const one of [predictor, others]) one.free();
+  const against = ([name, milliseconds]) => [name, { microseconds: 1000 * milliseconds, ratio: milliseconds / time.step }];
+  return Object.fromEntries(Object.entries(time).map(against));
 }

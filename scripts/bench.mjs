@@ -8,7 +8,9 @@ import { median } from "../benches/measure.mjs";
 import { measureNumpy } from "../benches/numpy.mjs";
 import { report } from "../benches/report.mjs";
 import { exponents, INTERVAL, scenario, sweep } from "../benches/scenarios.mjs";
+import { checkUnit, unit } from "../benches/yardstick.mjs";
 import { build } from "./build.mjs";
+import { compile } from "./cargo.mjs";
 import { ensureChromium, launch } from "./chromium.mjs";
 import { Failure, main, root, run } from "./run.mjs";
 import { serve } from "./serve.mjs";
@@ -65,12 +67,16 @@ async function natively(list, { pointerScenario }, quick) {
   const times = ["--warm-up-time", `${warmUp}`, "--measurement-time", `${measurement}`];
   const which = ["--package", "benches", "--profile", "tools", "--target-dir", "target"];
   const env = { CRITERION_HOME: join(folder, "criterion") };
+  await compile("compiling the native part", ["bench", "--no-run", ...which]);
   await run("cargo", ["bench", "--quiet", ...which, "--", ...criterion, ...times], { env });
-  const exp = median(["first", "second", "third"].map((round) => nanoseconds(`exp ${round}`))) / file.exponents.length;
+  const call = (way, round) => nanoseconds(`exp ${way} ${round}`) / file.exponents.length;
+  const rounds = ["first", "second", "third"];
+  const units = rounds.map((round) => ({ plain: call("plain", round), unrolled: call("unrolled", round) }));
+  const exp = checkUnit("natively", units);
   const result = {};
   for (const { name, pairs } of list) {
     const time = nanoseconds(name);
-    result[name] = { microseconds: time / 1000, ratio: time / (exp * pairs) };
+    result[name] = { microseconds: time / 1000, ratio: time / (unit(exp) * pairs) };
   }
   return { exp, cases: result };
 }
