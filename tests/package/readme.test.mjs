@@ -1,23 +1,44 @@
-// The README's own code, followed to the letter: in Node, and on a page over which the real mouse moves.
-import { test } from "node:test";
+// The README's own code, followed to the letter: compiled by strict TypeScript, run in Node, and on pages over which the real mouse
+// moves.
+import { after, before, describe, it, test } from "node:test";
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { cpSync, readFileSync, symlinkSync } from "node:fs";
 import { join } from "node:path";
 import * as esbuild from "esbuild";
 import { launch } from "../../scripts/chromium.mjs";
 import { capture, root } from "../../scripts/run.mjs";
 import { serve } from "../../scripts/serve.mjs";
-import { project, write } from "./support.mjs";
+import { project, strict, write } from "./support.mjs";
 
 const readme = readFileSync(join(root, "README.md"), "utf8");
-const [onAPage, inNode, learning, ...rest] = [...readme.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+const blocks = (language) => [...readme.matchAll(new RegExp(`^\`\`\`${language}\n(.*?)^\`\`\``, "gms"))].map(([, code]) => code);
+const [onAPage, inNode, projecting, learning, ...rest] = blocks("js");
 
 test("the README's code", async (t) => {
-  const { folder } = await project(t);
+  const { folder, tarball } = await project(t);
 
-  await t.test("there are three programs", () => assert.deepEqual([learning !== undefined, rest.length], [true, 0]));
+  await t.test("there are four programs", () => assert.deepEqual([learning !== undefined, rest.length], [true, 0]));
 
-  for (const [name, program] of Object.entries({ inNode, learning })) {
+  await t.test("names the file that is installed until the package is on npm", () => {
+    const [commands] = blocks("sh");
+    assert.match(commands, new RegExp(`npm pack .*: builds ${tarball}\nnpm install PATH/TO/${tarball} `));
+    assert.match(readme, /on no registry yet/);
+  });
+
+  for (const lib of [["ES2022", "DOM"], undefined]) {
+    await t.test(`on a page compiles as it is pasted into a strict TypeScript project, ${lib ?? "with the usual libraries"}`, async () => {
+      write(folder, "pasted.ts", onAPage);
+      const options = { target: "ES2022", lib, module: "esnext", moduleResolution: "bundler" };
+      const compilerOptions = { ...strict, ...options, noUncheckedIndexedAccess: true, noImplicitReturns: true };
+      write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["pasted.ts"] }));
+      const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
+      assert.equal(code, 0, output);
+    });
+  }
+
+  // the other package that the README names
+  symlinkSync(join(root, "node_modules/proj4"), join(folder, "node_modules/proj4"), "junction");
+  for (const [name, program] of Object.entries({ inNode, projecting, learning })) {
     await t.test(`in Node prints what its comments say: ${name}`, async () => {
       write(folder, `${name}.mjs`, program);
       const { code, output } = await capture("node", [`${name}.mjs`], { cwd: folder });
@@ -28,34 +49,182 @@ test("the README's code", async (t) => {
     });
   }
 
-  for (const entry of ["whither", "whither/pointing"]) {
-    await t.test(`on a page, from ${entry}, marks the icon that the mouse is going to, before it is there`, async () => {
-      const icon = (id, left) => `<i data-icon id="${id}" style="position:fixed;top:300px;left:${left}px;width:96px;height:96px"></i>`;
-      const icons = [0, 1, 2, 3].map((i) => icon(`icon${i}`, 100 + 300 * i)).join("");
-      write(folder, "site/index.html", `<!doctype html><link rel="icon" href="data:,">${icons}<script type="module" src="main.js"></script>`);
-      write(folder, "main.js", onAPage.replace(/from "whither[^"]*"/, `from "${entry}"`));
-      const bundle = { bundle: true, format: "esm", target: "es2022", outdir: "site", logLevel: "warning" };
-      await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...bundle });
-      const server = await serve(join(folder, "site"));
-      const browser = await launch();
-      try {
-        const tab = await browser.newPage();
-        const errors = [];
-        tab.on("pageerror", (error) => errors.push(String(error)));
-        await tab.goto(server.url, { waitUntil: "networkidle" });
-        // a minimum-jerk movement from between the first two icons to the last; 70% of the way
-        for (let k = 0; k <= 28; k++) {
-          const u = k / 40;
-          const way = 10 * u ** 3 - 15 * u ** 4 + 6 * u ** 5;
-          await tab.mouse.move(300 + 748 * way, 600 - 252 * way);
-          await tab.waitForTimeout(12);
-        }
-        assert.deepEqual(await tab.evaluate(() => [...document.querySelectorAll(".next")].map(({ id }) => id)), ["icon3"]);
-        assert.deepEqual(errors, []);
-      } finally {
-        await browser.close();
-        await server.close();
-      }
-    });
-  }
+  await t.test("in Rust is a program as it is pasted, with those dependencies", async () => {
+    const [dependencies] = blocks("toml");
+    const [program] = blocks("rust");
+    const rust = join(folder, "in-rust");
+    write(rust, "Cargo.toml", `[package]\nname = "pasted"\nedition = "2024"\n\n${dependencies.replace("PATH/TO/whither", root)}`);
+    write(rust, "src/main.rs", program);
+    // the versions that this project has already
+    cpSync(join(root, "Cargo.lock"), join(rust, "Cargo.lock"));
+    const args = ["run", "--quiet", "--offline", "--target-dir", join(root, "target/readme")];
+    const { code, output } = await capture("cargo", args, { cwd: rust });
+    assert.equal(code, 0, output);
+    assert.equal(output.trim(), program.match(/println!.*; \/\/ (.*)/)[1]);
+  });
+
+  for (const entry of ["whither", "whither/pointing"]) await t.test(`on a page, from ${entry}`, () => onPages(folder, entry));
 });
+
+/** Four icons in a row, and a hidden one. */
+const icons = [0, 1, 2, 3].map((i) => `<i data-icon id="icon${i}" style="left:${100 + 300 * i}px"></i>`).join("");
+const page = `<!doctype html><link rel="icon" href="data:,"><style>
+  [data-icon] { position: fixed; top: 300px; width: 96px; height: 96px }
+</style>${icons}<i data-icon id="hidden" style="display:none"></i><script type="module" src="main.js"></script>`;
+
+/** The package, whose last answer can be read in the page, and replaced. */
+const heard = (entry) => `import { Predictor as Original } from "${entry}";
+export { init, pointerScenario } from "${entry}";
+export class Predictor extends Original {
+  get best() {
+    return (window.best = window.instead ?? super.best);
+  }
+}`;
+
+/** Half-way between the first two icons, below them; and the middle of the last. */
+const start = [300, 600];
+const last = [1048, 348];
+
+async function onPages(folder, entry) {
+  write(folder, "site/index.html", page);
+  write(folder, "main.js", onAPage.replace(/from "whither"/, 'from "./heard.js"'));
+  write(folder, "heard.js", heard(entry));
+  const bundle = { bundle: true, format: "esm", target: "es2022", outdir: "site", logLevel: "warning" };
+  await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...bundle });
+
+  await describe(`from ${entry}`, () => {
+    let server, browser, tab, errors;
+
+    before(async () => {
+      server = await serve(join(folder, "site"));
+      browser = await launch();
+    });
+    after(async () => {
+      await browser.close();
+      await server.close();
+    });
+
+    /** Opens the page after `prepare` has changed what the browser has. */
+    const open = async (prepare) => {
+      tab = await browser.newPage();
+      errors = [];
+      tab.on("pageerror", (error) => errors.push(String(error)));
+      if (prepare) await tab.addInitScript(prepare);
+      await tab.goto(server.url, { waitUntil: "networkidle" });
+    };
+
+    /** A minimum-jerk movement, as much of it as `to` says; gives what was best and which icons were lit after each sample. */
+    const move = async (from, [x, y], to = 1) => {
+      const shown = [];
+      for (let k = 0; k <= 40 * to; k++) {
+        const u = k / 40;
+        const way = 10 * u ** 3 - 15 * u ** 4 + 6 * u ** 5;
+        await tab.mouse.move(from[0] + (x - from[0]) * way, from[1] + (y - from[1]) * way);
+        await tab.waitForTimeout(12);
+        shown.push({ best: await tab.evaluate(() => window.best), lit: await next() });
+      }
+      return shown;
+    };
+    const next = () => tab.evaluate(() => [...document.querySelectorAll(".next")].map(({ id }) => id));
+    const times = (shown, id) => shown.filter(({ lit }) => lit.includes(id)).length;
+    const everLit = (shown) => [...new Set(shown.flatMap(({ lit }) => lit))];
+    const rest = () => tab.waitForTimeout(400);
+    const finish = async () => {
+      assert.deepEqual(errors, []);
+      await tab.close();
+    };
+
+    it("marks the icon that the mouse is going to, before it is there, and no other", async () => {
+      await open();
+      const shown = await move(start, last, 0.7);
+      assert.deepEqual([everLit(shown), await next()], [["icon3"], ["icon3"]]);
+      await finish();
+    });
+
+    it("follows icons that move, hide and appear: measured when a movement begins", async () => {
+      await open();
+      await move(start, last, 0.7);
+      await tab.evaluate(() => {
+        const [zero, , , three] = ["icon0", "icon1", "icon2", "icon3"].map((id) => document.getElementById(id));
+        [zero.style.left, three.style.left] = [three.style.left, zero.style.left];
+      });
+      await rest();
+      await move(start, last, 0.7);
+      assert.deepEqual(await next(), ["icon0"]);
+      await tab.evaluate(() => document.querySelectorAll("[data-icon]").forEach((icon) => (icon.style.display = "none")));
+      await tab.mouse.down();
+      await tab.mouse.up();
+      await move(start, last, 0.7);
+      assert.deepEqual(await next(), []);
+      await tab.evaluate(() => (document.getElementById("hidden").style.cssText = "left:1000px"));
+      await rest();
+      await move(start, last, 0.7);
+      assert.deepEqual(await next(), ["hidden"]);
+      await finish();
+    });
+
+    it("works without getCoalescedEvents", async () => {
+      await open(() => delete PointerEvent.prototype.getCoalescedEvents);
+      assert.equal(await tab.evaluate(() => "getCoalescedEvents" in PointerEvent.prototype), false);
+      await move(start, last, 0.7);
+      assert.deepEqual(await next(), ["icon3"]);
+      await finish();
+    });
+
+    it("takes a clock that steps back as a new movement", async () => {
+      await open(() => {
+        const { get } = Object.getOwnPropertyDescriptor(Event.prototype, "timeStamp");
+        window.step = 0;
+        Object.defineProperty(Event.prototype, "timeStamp", { get() { return get.call(this) + window.step; } });
+      });
+      await move(start, [148, 348], 0.6);
+      await tab.evaluate(() => (window.step = -1000));
+      await move(start, last, 0.7);
+      assert.deepEqual(await next(), ["icon3"]);
+      await finish();
+    });
+
+    it("begins a new movement after a rest: what was before it does not count", async () => {
+      await open();
+      await move(last, start);
+      await rest();
+      const rested = await move(start, last, 0.7);
+      await tab.close();
+      await open();
+      const fresh = await move(start, last, 0.7);
+      const [one, other] = [rested, fresh].map((shown) => times(shown, "icon3"));
+      assert.deepEqual([everLit(rested), Math.abs(one - other) <= 3], [["icon3"], true], `${one}, ${other}`);
+      await finish();
+    });
+
+    it("lights at .8 and goes out below .5", async () => {
+      await open();
+      // past the last icon on the way up, and back: sure at first, and then less and less
+      const shown = [...(await move(start, last, 0.7)), ...(await move([823, 424], [700, 600])), ...(await move([700, 600], [500, 420]))];
+      let lit = [];
+      const seen = { kept: 0, waited: 0 };
+      for (const { best, lit: now } of shown) {
+        const enough = lit.includes(best.id) ? 0.5 : 0.8;
+        if (best.probability >= 0.5 && best.probability < 0.8) seen[enough === 0.5 ? "kept" : "waited"] += 1;
+        lit = best.probability >= enough ? [best.id] : [];
+        assert.deepEqual(now, lit, JSON.stringify(best));
+      }
+      assert.ok(seen.kept > 0 && seen.waited > 0, JSON.stringify(seen));
+      await finish();
+    });
+
+    it("never marks the icon that the mouse comes from", async () => {
+      await open();
+      await tab.mouse.move(148, 348);
+      await rest();
+      // whatever the predictor may find: it is made sure of each icon in turn
+      const lit = {};
+      for (const id of ["icon0", "icon1"]) {
+        await tab.evaluate((id) => (window.instead = { id, index: 0, probability: 0.95 }), id);
+        lit[id] = everLit(await move([148, 348], [160, 340], 0.2));
+      }
+      assert.deepEqual(lit, { icon0: [], icon1: ["icon1"] });
+      await finish();
+    });
+  });
+}

@@ -26,6 +26,9 @@ export async function predict({ init, Predictor }, options) {
 }
 `;
 
+/** What strict users ask of the compiler, whatever else they have. */
+export const strict = { strict: true, skipLibCheck: false, noEmit: true, exactOptionalPropertyTypes: true, types: [] };
+
 /** What `predict` must give. */
 export function assertPredicted(probabilities) {
   const expected = golden.expected.probabilities[method].at(-1);
@@ -34,8 +37,8 @@ export function assertPredicted(probabilities) {
 }
 
 /**
- * Packs the package and installs the tarball into an empty project. Gives its folder, the list of the packed files and what
- * removes it all.
+ * Packs the package and installs the tarball into an empty project. Gives its folder, the tarball's name and the list of the
+ * packed files.
  */
 export async function project(t) {
   const folder = realpathSync(mkdtempSync(join(tmpdir(), "whither-package-")));
@@ -46,7 +49,7 @@ export async function project(t) {
   write(folder, "package.json", JSON.stringify({ name: "a-users-project", private: true, type: "module" }));
   await npm(["install", "--offline", "--no-audit", "--no-fund", join(folder, tarball.filename)], folder);
   write(folder, "predict.js", predict);
-  return { folder, files: tarball.files.map(({ path }) => path) };
+  return { folder, tarball: tarball.filename, files: tarball.files.map(({ path }) => path) };
 }
 
 async function npm(args, cwd) {

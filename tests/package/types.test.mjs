@@ -3,7 +3,7 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { capture, root } from "../../scripts/run.mjs";
-import { project, write } from "./support.mjs";
+import { project, strict, write } from "./support.mjs";
 
 const program = `
 import { init, initSync, pointerScenario, Predictor, WhitherError, type Scenario } from "whither";
@@ -63,7 +63,6 @@ new Predictor({ ...scenario, motion: { type: "constantSpeed", dimensions: 2, noi
 new Predictor(scenario).observe("0", [1, 2]);
 `;
 
-const strict = { strict: true, skipLibCheck: false, noEmit: true, exactOptionalPropertyTypes: true, types: [] };
 const users = {
   "ES2020 and nothing else": { target: "ES2020", lib: ["ES2020"], module: "nodenext", moduleResolution: "nodenext" },
   "a bundler and the DOM": { target: "ES2022", lib: ["ES2022", "DOM"], module: "esnext", moduleResolution: "bundler" },
