@@ -1,7 +1,7 @@
 // The measurements that run alike in Node and in a browser, through the public class with its checks.
 import { interleave } from "./measure.mjs";
 import { exponents, INTERVAL, scenario, sweep } from "./scenarios.mjs";
-import { checkUnit, unit, ways } from "./yardstick.mjs";
+import { check, checkUnit, unit, ways } from "./yardstick.mjs";
 
 /** How long each is measured: rounds, and the least milliseconds of one and of what comes before. */
 export const effort = (quick) => (quick ? { rounds: 5, least: 3, warmUp: 30 } : { rounds: 15, least: 8, warmUp: 200 });
@@ -25,26 +25,39 @@ export function step({ Predictor, pointerScenario }, { length = Infinity, before
 
 /**
  * Each case against as many `Math.exp` as it has pairs, in the same rounds: `{ microseconds, ratio }` by name, and what a call
- * takes in either way, in nanoseconds. `progress` is told the name of each before it begins; `where` names the engine.
+ * takes in each way, in nanoseconds. `progress` is told the name of each before it begins; `where` names the engine.
  */
 export async function measureCases(where, whither, list, clock, options, progress) {
   const results = {};
   const units = [];
+  const checks = [];
+  const numbers = exponents(1000);
+  const nanoseconds = (milliseconds, calls) => (1e6 * milliseconds) / calls;
+  const keep = (time, calls) => {
+    units.push({ plain: nanoseconds(time.plain, calls), unrolled: nanoseconds(time.unrolled, calls) });
+  };
+  /** Before and after all cases, so that a bad unit is told at once. */
+  const checked = () => {
+    const time = interleave([...ways(numbers), check(numbers)], clock, options);
+    keep(time, numbers.length);
+    checks.push(nanoseconds(time.check, numbers.length));
+    return checkUnit(where, units, checks);
+  };
   // an engine compiles well only what has run for a while, and does so beside what runs
   await progress("warm-up");
   const first = step(whither, list[0]);
   for (const begin = clock(); clock() - begin < 10 * options.warmUp; ) first.run(100);
   first.predictor.free();
+  checked();
   for (const one of list) {
     await progress(one.name);
     const { run, predictor } = step(whither, one);
     const time = interleave([...ways(exponents(one.pairs)), { name: "step", run }], clock, options);
     predictor.free();
     results[one.name] = { microseconds: 1000 * time.step, ratio: time.step / unit(time) };
-    const nanoseconds = (milliseconds) => (1e6 * milliseconds) / one.pairs;
-    units.push({ plain: nanoseconds(time.plain), unrolled: nanoseconds(time.unrolled) });
+    keep(time, one.pairs);
   }
-  return { cases: results, exp: checkUnit(where, units) };
+  return { cases: results, exp: checked() };
 }
 
 /**

@@ -8,7 +8,7 @@ import { median } from "../benches/measure.mjs";
 import { measureNumpy } from "../benches/numpy.mjs";
 import { report } from "../benches/report.mjs";
 import { exponents, INTERVAL, scenario, sweep } from "../benches/scenarios.mjs";
-import { checkUnit, unit } from "../benches/yardstick.mjs";
+import { checkUnit } from "../benches/yardstick.mjs";
 import { build } from "./build.mjs";
 import { compile } from "./cargo.mjs";
 import { ensureChromium, launch } from "./chromium.mjs";
@@ -72,11 +72,11 @@ async function natively(list, { pointerScenario }, quick) {
   const call = (way, round) => nanoseconds(`exp ${way} ${round}`) / file.exponents.length;
   const rounds = ["first", "second", "third"];
   const units = rounds.map((round) => ({ plain: call("plain", round), unrolled: call("unrolled", round) }));
-  const exp = checkUnit("natively", units);
+  const exp = checkUnit("natively", units, rounds.map((round) => call("check", round)));
   const result = {};
   for (const { name, pairs } of list) {
     const time = nanoseconds(name);
-    result[name] = { microseconds: time / 1000, ratio: time / (unit(exp) * pairs) };
+    result[name] = { microseconds: time / 1000, ratio: time / (exp.unit * pairs) };
   }
   return { exp, cases: result };
 }
