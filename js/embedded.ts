@@ -4,23 +4,18 @@
  * @module
  */
 import { base64 } from "./generated/bytes.js";
-import { load } from "./glue.js";
-import type { WasmSource } from "./source.js";
+import { loadWith, type InitOptions } from "./loading.js";
 import { unpack } from "./unpack.js";
 
-/** What {@link init} takes. */
-export interface InitOptions {
-  /** Where the WebAssembly is; left out: the copy inside the package. */
-  readonly wasm?: WasmSource | undefined;
-}
+export type { InitOptions };
 
 /**
  * Loads the WebAssembly, alike in a browser, a worker, Node, Deno and Bun: nothing is fetched, the bytes are in the package.
  * Call it as often as you like: it loads once, two calls at once share one, and it can be tried again after a failure.
  *
- * @param options - Another place of the WebAssembly. Once it is loaded, or loading, this is not looked at.
+ * @param options - Another place of the WebAssembly. Once it is loaded, or loading, that place is not looked at.
  * @throws {@link WhitherError} `wasm-unavailable` where WebAssembly is not allowed: a page with a Content-Security-Policy needs
- * `'wasm-unsafe-eval'` in its `script-src`, and nothing else.
+ * `'wasm-unsafe-eval'` in its `script-src`, and nothing else; `wrong-type` and `unknown-key` for the options.
  *
  * @example
  * ```ts
@@ -29,5 +24,5 @@ export interface InitOptions {
  * ```
  */
 export function init(options?: InitOptions): Promise<void> {
-  return load(() => options?.wasm ?? unpack(base64, `use init({ wasm }) with whither/${WASM_FILE}`));
+  return loadWith(options, (wasm) => wasm ?? unpack(base64, `use init({ wasm }) with whither/${WASM_FILE}`));
 }

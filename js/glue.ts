@@ -3,14 +3,20 @@
  *
  * @module
  */
-import start, { initSync as startNow, type InitOutput } from "./generated/whither.js";
+import { __wbg_set_wasm, imports } from "./generated/whither.js";
 import { WhitherError } from "./error.js";
-import { compiled, compiledNow, unavailable, type CompiledModule, type WasmSource } from "./source.js";
+import { checkOptions } from "./options.js";
+import { compiled, compiledNow, type CompiledModule, type WasmSource } from "./source.js";
+import { begin, instantiated, instantiatedNow, unfit } from "./start.js";
 
 // in `whither/pointing` that of another module, which has no SequenceEngine
 export * from "./generated/whither.js";
 
-let running: InitOutput | undefined;
+const side = { __wbg_set_wasm, imports };
+
+type Running = { readonly memory: WebAssembly.Memory };
+
+let running: Running | undefined;
 let loading: Promise<void> | undefined;
 
 /**
@@ -27,12 +33,9 @@ export function load(source: () => WasmSource): Promise<void> {
 
 async function instantiate(source: () => WasmSource): Promise<void> {
   if (running) return;
-  const module = ours(await compiled(source()));
-  try {
-    running = await start({ module_or_path: module });
-  } catch (error) {
-    throw unfit(error);
-  }
+  const instance = await instantiated(ours(await compiled(source)), side);
+  // `initSync` may have been quicker, and what was made since lives in its memory
+  running ??= begin<Running>(instance, side);
 }
 
 /**
@@ -40,16 +43,11 @@ async function instantiate(source: () => WasmSource): Promise<void> {
  * blocked. Does nothing where it is loaded.
  *
  * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm` (in `whither/pointing` of `whither/pointing.wasm`).
- * @throws {@link WhitherError} `wasm-unavailable`, `wrong-type`.
+ * @throws {@link WhitherError} `wasm-unavailable`, `wrong-type`, `unknown-key`.
  */
 export function initSync(options: { module: CompiledModule | ArrayBuffer | ArrayBufferView }): void {
-  if (running) return;
-  const module = ours(compiledNow(options?.module));
-  try {
-    running = startNow({ module });
-  } catch (error) {
-    throw unfit(error);
-  }
+  checkOptions(options, ["module"]);
+  running ??= begin<Running>(instantiatedNow(ours(compiledNow(options?.module)), side), side);
 }
 
 /** The generated code would keep whatever it is given, so another module must not reach it. */
@@ -57,13 +55,8 @@ function ours(module: WebAssembly.Module): WebAssembly.Module {
   const missing = ["__wbindgen_start", "engine_new"].find(
     (name) => !WebAssembly.Module.exports(module).some((item) => item.name === name),
   );
-  if (missing !== undefined) throw unfit(new Error(`it has no ${missing}`));
+  if (missing !== undefined) throw unfit(new TypeError(`it has no ${missing}`));
   return module;
-}
-
-function unfit(error: unknown): WhitherError {
-  const reason = error instanceof Error ? error.message : String(error);
-  return unavailable(`the module is not this version's ${WASM_FILE}: ${reason}`, error);
 }
 
 /** The memory of the running module. It is another buffer each time the memory has grown. */
@@ -72,7 +65,7 @@ export function memory(): ArrayBuffer {
 }
 
 /** Throws where the WebAssembly is not loaded. */
-export function loaded(): InitOutput {
+export function loaded(): Running {
   if (running) return running;
   throw new WhitherError("not-initialised", "", "call init() and wait for it first: await init()");
 }

@@ -10,11 +10,7 @@ export function freed(what: string): never {
   throw new WhitherError("freed", "", `this ${what} was freed`);
 }
 
-/** Gives a class its `Symbol.dispose`, which not every engine has yet. */
-export function disposable<T extends object>(prototype: T, dispose: (object: T) => void): void {
-  if (typeof Symbol.dispose !== "symbol") return;
-  const value = function (this: T): void {
-    dispose(this);
-  };
-  Object.defineProperty(prototype, Symbol.dispose, { value, configurable: true, writable: true });
-}
+/**
+ * The name of the method that `using` calls: `Symbol.dispose`, or where an engine does not have it yet, a name that nobody knows.
+ */
+export const dispose: typeof Symbol.dispose = (Symbol.dispose as typeof Symbol.dispose | undefined) ?? (Symbol() as never);

@@ -2,7 +2,8 @@
 import { WhitherError } from "./error.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./glue.js";
-import { disposable, freed } from "./lifetime.js";
+import { dispose, freed } from "./lifetime.js";
+import { checkOptions } from "./options.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
 import { isList, MOST_ITEMS, plain } from "./value.js";
 
@@ -116,10 +117,11 @@ export class Predictor {
    * @param time - Seconds, at least the last observation's.
    * @param position - A number for each observed axis; `null` or `undefined` for one that is missing.
    * @param options - What belongs to this observation alone.
-   * @throws {@link WhitherError} `time-not-increasing`, `wrong-type`, `wrong-length`, `not-finite`, `not-positive-definite`. The
-   * state is then what it was, and the next good observation works.
+   * @throws {@link WhitherError} `time-not-increasing`, `wrong-type`, `wrong-length`, `not-finite`, `not-positive-definite`,
+   * `unknown-key`. The state is then what it was, and the next good observation works.
    */
   observe(time: number, position: Position, options?: ObserveOptions): void {
+    if (options !== undefined) checkOptions(options, ["noise"]);
     // The way of nearly all observations allocates nothing; the other reads everything, and finds what is wrong with it.
     const noise = options?.noise;
     const count = position?.length;
@@ -354,8 +356,9 @@ export class Predictor {
     this.#engine = null;
   }
 
-  static {
-    disposable(this.prototype, (predictor) => predictor.#engine && predictor.free());
+  /** Frees the predictor at the end of a `using` declaration's block; does nothing where it was freed before. */
+  [dispose](): void {
+    if (this.#engine) this.free();
   }
 
   #live(): Engine {
@@ -370,11 +373,6 @@ export class Predictor {
     if (view.buffer === buffer && view.byteOffset === address && view.length === length) return view;
     return (this.#view = new Float64Array(buffer, address, length));
   }
-}
-
-export interface Predictor {
-  /** Frees the predictor at the end of a `using` declaration's block; does nothing where it was freed before. */
-  [Symbol.dispose](): void;
 }
 
 function adopt(engine: unknown): Predictor {

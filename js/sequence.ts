@@ -1,7 +1,8 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { loaded, SequenceEngine } from "./glue.js";
-import { disposable, freed } from "./lifetime.js";
+import { dispose, freed } from "./lifetime.js";
+import { checkOptions } from "./options.js";
 import type { Matrix, Motion, Observation, Vector } from "./scenario.js";
 import { plain } from "./value.js";
 
@@ -163,11 +164,12 @@ export class ConditionallyMarkovSequence {
    *
    * @param options - `seed`: a whole number below 2^32, the same one gives the same numbers; `count`: how many.
    * @returns `(steps + 1) * s` numbers for each, state by state.
-   * @throws {@link WhitherError} `too-large` for more than 10 million numbers.
+   * @throws {@link WhitherError} `too-large` for more than 10 million numbers; `missing-key`, `unknown-key`, `out-of-range`.
    */
   sample(options: { readonly seed: number; readonly count: number }): Float64Array[] {
+    checkOptions(options, ["seed", "count"]);
     const engine = this.#live();
-    const numbers = engine.sample(plain(options));
+    const numbers = engine.sample(plain(options ?? {}));
     const length = (engine.steps() + 1) * engine.states();
     return Array.from({ length: numbers.length / length }, (_, i) => numbers.slice(i * length, (i + 1) * length));
   }
@@ -201,18 +203,14 @@ export class ConditionallyMarkovSequence {
     this.#engine = null;
   }
 
-  static {
-    disposable(this.prototype, (sequence) => sequence.#engine && sequence.free());
+  /** Frees the sequence at the end of a `using` declaration's block; does nothing where it was freed before. */
+  [dispose](): void {
+    if (this.#engine) this.free();
   }
 
   #live(): SequenceEngine {
     return this.#engine ?? freed("sequence");
   }
-}
-
-export interface ConditionallyMarkovSequence {
-  /** Frees the sequence at the end of a `using` declaration's block; does nothing where it was freed before. */
-  [Symbol.dispose](): void;
 }
 
 function adopt(engine: unknown): ConditionallyMarkovSequence {

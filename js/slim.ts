@@ -4,7 +4,7 @@
  * @module
  */
 import { WhitherError } from "./error.js";
-import { load } from "./glue.js";
+import { loadWith } from "./loading.js";
 import type { WasmSource } from "./source.js";
 
 export * from "./exports.js";
@@ -18,8 +18,9 @@ export interface SlimInitOptions {
 /**
  * Loads the WebAssembly. Call it as often as you like: it loads once, and can be tried again after a failure.
  *
- * @param options - Where the WebAssembly is. Once it is loaded, or loading, this is not looked at.
- * @throws {@link WhitherError} `wasm-unavailable` where it cannot be had or is not allowed here; `missing-key`, `wrong-type`.
+ * @param options - Where the WebAssembly is. Once it is loaded, or loading, that place is not looked at.
+ * @throws {@link WhitherError} `wasm-unavailable` where it cannot be had or is not allowed here; `missing-key`, `wrong-type`,
+ * `unknown-key`.
  *
  * @example
  * ```ts
@@ -28,8 +29,7 @@ export interface SlimInitOptions {
  * ```
  */
 export function init(options: SlimInitOptions): Promise<void> {
-  return load(() => {
-    const wasm = options?.wasm;
+  return loadWith(options, (wasm) => {
     if (wasm !== undefined) return wasm;
     throw new WhitherError("missing-key", "wasm", 'missing key "wasm": whither/slim has no bytes of its own');
   });

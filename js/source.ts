@@ -36,44 +36,55 @@ export type WasmSource = WasmLocation | PromiseLike<WasmLocation>;
 /**
  * The compiled module.
  *
+ * @param source - Gives where it comes from; not asked where there is no WebAssembly.
  * @throws {@link WhitherError} `wasm-unavailable`, where the address does not answer with WebAssembly, or WebAssembly is not
  * allowed here; `wrong-type` for anything that is no source.
  */
-export async function compiled(source: WasmSource): Promise<WebAssembly.Module> {
-  if (typeof WebAssembly !== "object") throw unavailable("WebAssembly does not exist here");
+export async function compiled(source: () => WasmSource): Promise<WebAssembly.Module> {
+  possible();
   let given: WasmLocation;
   try {
-    given = await source;
+    given = await source();
   } catch (error) {
     if (error instanceof WhitherError) throw error;
     throw unavailable(`the promise of it was rejected: ${reason(error)}`, error);
   }
-  if (given instanceof WebAssembly.Module) return given;
-  return compile(await bytesOf(given));
+  if (isModule(given)) return given;
+  const [bytes, what] = await bytesOf(given);
+  try {
+    return await WebAssembly.compile(bytes);
+  } catch (error) {
+    throw refused(error, bytes, what);
+  }
 }
 
 /** Compiles without waiting, for `initSync`. */
 export function compiledNow(source: ArrayBuffer | ArrayBufferView | CompiledModule): WebAssembly.Module {
-  if (typeof WebAssembly !== "object") throw unavailable("WebAssembly does not exist here");
-  if (source instanceof WebAssembly.Module) return source;
+  possible();
+  if (isModule(source)) return source;
   if (!isBytes(source)) throw wrongType("module", "a WebAssembly.Module or its bytes");
+  const [bytes, what] = checked(source, GIVEN);
   try {
-    return new WebAssembly.Module(checked(source, "the given bytes"));
+    return new WebAssembly.Module(bytes);
   } catch (error) {
-    throw refused(error);
+    throw refused(error, bytes, what);
   }
 }
 
-async function compile(bytes: BufferSource): Promise<WebAssembly.Module> {
-  try {
-    return await WebAssembly.compile(bytes);
-  } catch (error) {
-    throw refused(error);
+/** Asked before anything else: without WebAssembly, parts of the platform that are made with it end the process (Node's `fetch`). */
+function possible(): void {
+  for (const name of ["WebAssembly", "TextDecoder", "TextEncoder"] as const) {
+    if (typeof globalThis[name] === "undefined") throw unavailable(`${name} does not exist here`);
   }
 }
 
-async function bytesOf(source: WasmLocation): Promise<BufferSource> {
-  if (isBytes(source)) return checked(source, "the given bytes");
+/** What is compiled, and how errors name it. */
+type Named = readonly [bytes: Uint8Array<ArrayBuffer>, what: string];
+
+const GIVEN = "the given bytes";
+
+async function bytesOf(source: WasmLocation): Promise<Named> {
+  if (isBytes(source)) return checked(source, GIVEN);
   if (isResponse(source)) return answered(source, source.url || "the given response");
   const address = typeof source === "string" ? source : (source as Partial<UrlLike> | null | undefined)?.href;
   if (typeof address !== "string") {
@@ -88,7 +99,7 @@ async function bytesOf(source: WasmLocation): Promise<BufferSource> {
   return answered(response, address);
 }
 
-async function answered(response: ResponseLike, address: string): Promise<BufferSource> {
+async function answered(response: ResponseLike, address: string): Promise<Named> {
   if (!response.ok) throw unavailable(`${address} answered with status ${response.status}`);
   let bytes: ArrayBuffer;
   try {
@@ -100,35 +111,64 @@ async function answered(response: ResponseLike, address: string): Promise<Buffer
 }
 
 /** Servers like to answer an unknown address with status 200 and a page, so the first bytes decide. */
-function checked(source: ArrayBuffer | ArrayBufferView, what: string): BufferSource {
-  const bytes = (
-    ArrayBuffer.isView(source)
-      ? new Uint8Array(source.buffer, source.byteOffset, source.byteLength)
-      : new Uint8Array(source)
-  ) as Uint8Array<ArrayBuffer>;
+function checked(source: ArrayBuffer | ArrayBufferView, what: string): Named {
+  let bytes: Uint8Array<ArrayBuffer>;
+  try {
+    // A copy: memory that is shared, or can be resized, is not compiled from.
+    bytes = ArrayBuffer.isView(source)
+      ? new Uint8Array(new Uint8Array(source.buffer, source.byteOffset, source.byteLength))
+      : new Uint8Array(new Uint8Array(source));
+  } catch (error) {
+    throw unavailable(`${what} cannot be read: ${reason(error)}`, error);
+  }
   const magic = [0x00, 0x61, 0x73, 0x6d];
-  if (magic.every((byte, i) => bytes[i] === byte)) return bytes;
+  if (magic.every((byte, i) => bytes[i] === byte)) return [bytes, what];
+  throw unavailable(`${what} must be WebAssembly, ${beginning(bytes)}`);
+}
+
+function beginning(bytes: Uint8Array): string {
+  if (bytes.length === 0) return "has no bytes";
+  if (bytes[0] === 0x1f && bytes[1] === 0x8b) return "is gzipped";
   const start = new TextDecoder().decode(bytes.subarray(0, 200)).trim();
-  const found = /^<(!doctype html|html)/i.test(start) ? "is an HTML page" : `begins with "${start.slice(0, 20)}"`;
-  throw unavailable(`${what} must be WebAssembly, ${found}`);
+  if (/^<(!doctype|!--|html|head)/i.test(start)) return "is an HTML page";
+  return `begins with ${JSON.stringify(start.slice(0, 20))}`;
+}
+
+// Objects of another realm (a test runner's, an edge runtime's, another window's) are of other classes than this one's, so none is
+// asked for its class.
+
+function isModule(value: unknown): value is WebAssembly.Module {
+  try {
+    WebAssembly.Module.exports(value as WebAssembly.Module);
+    return true;
+  } catch {
+    return false;
+  }
 }
 
 function isBytes(value: unknown): value is ArrayBuffer | ArrayBufferView {
-  return ArrayBuffer.isView(value) || Object.prototype.toString.call(value) === "[object ArrayBuffer]";
+  return ArrayBuffer.isView(value) || /^\[object (Shared)?ArrayBuffer\]$/.test(Object.prototype.toString.call(value));
 }
 
 function isResponse(value: unknown): value is ResponseLike {
   return typeof (value as Partial<ResponseLike> | null | undefined)?.arrayBuffer === "function";
 }
 
-/** Our own bytes are sound, so where they do not compile it is the surroundings that refuse. */
-function refused(error: unknown): WhitherError {
-  if (error instanceof WhitherError) return error;
-  return unavailable(
-    `WebAssembly was refused here (a Content-Security-Policy needs 'wasm-unsafe-eval' in script-src; ` +
-      `the engine needs SIMD): ${reason(error)}`,
-    error,
-  );
+/** Why these bytes do not compile: they are asked first, then the engine; where both are sound, it is the surroundings that refuse. */
+function refused(error: unknown, bytes: Uint8Array<ArrayBuffer>, what: string): WhitherError {
+  const why = reason(error);
+  if (WebAssembly.validate(bytes)) {
+    const policy = "a Content-Security-Policy needs 'wasm-unsafe-eval' in script-src, and nothing else";
+    return unavailable(`WebAssembly was refused here: ${why} (${policy})`, error);
+  }
+  if (!WebAssembly.validate(simd())) return unavailable(`the WebAssembly of this engine has no SIMD: ${why}`, error);
+  return unavailable(`${what} must be WebAssembly, is damaged or cut off after ${bytes.length} bytes: ${why}`, error);
+}
+
+/** The smallest module with an instruction of SIMD. */
+function simd(): Uint8Array<ArrayBuffer> {
+  const sections = "\x01\x05\x01`\0\x01{\x03\x02\x01\0\x0a\x0a\x01\x08\0A\0\xfd\x0f\xfdb\x0b";
+  return Uint8Array.from(`\0asm\x01\0\0\0${sections}`, (character) => character.charCodeAt(0));
 }
 
 /** An error that says why WebAssembly cannot be loaded. */
@@ -140,6 +180,9 @@ function wrongType(path: string, legal: string): WhitherError {
   return new WhitherError("wrong-type", path, `must be ${legal}`);
 }
 
-function reason(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
+/** What an error says, of whatever realm it is. */
+export function reason(error: unknown): string {
+  const message: unknown = (error as Partial<Error> | null | undefined)?.message;
+  if (typeof message === "string") return message;
+  return typeof error === "object" ? Object.prototype.toString.call(error) : String(error);
 }

@@ -6,11 +6,9 @@
  */
 import { WhitherError, type ErrorCode } from "./error.js";
 import { base64 } from "./generated/study-bytes.js";
-import start, { fit as search } from "./generated/study.js";
+import { learn } from "./learn.js";
 import type { Scenario } from "./scenario.js";
-import { compiled } from "./source.js";
 import { unpack } from "./unpack.js";
-import { plain } from "./value.js";
 
 export { WhitherError, type ErrorCode };
 
@@ -21,15 +19,15 @@ export { WhitherError, type ErrorCode };
  */
 export interface Track {
   /** Its name. */
-  readonly id?: string | undefined;
+  readonly id?: string | number | undefined;
   /** Who moved. With two users or more, what is gained is told on other users than it was learnt from. */
-  readonly user?: string | undefined;
+  readonly user?: string | number | undefined;
   /** What could have been the target. */
   readonly targets: readonly (readonly number[])[];
   /** Which one it was: its place in `targets`, counted from 0. */
   readonly target: number;
-  /** When and where, in order of time. */
-  readonly samples: readonly (readonly number[])[];
+  /** When and where, in order of time; `null` for a coordinate that is missing. */
+  readonly samples: readonly (readonly (number | null)[])[];
 }
 
 /** How far a search has come. */
@@ -84,12 +82,6 @@ export interface Fitted<S> {
   readonly tracks: number;
 }
 
-let loading: Promise<unknown> | undefined;
-
-async function load(): Promise<unknown> {
-  return start({ module_or_path: await compiled(unpack(base64, "learn where it does")) });
-}
-
 /**
  * Learns the few constants of a scenario from recorded movements, for another device, unit or task: for the method `pointing`
  * those of the least mean log loss on the approaches, for the papers' methods those of the most evidence
@@ -120,33 +112,10 @@ async function load(): Promise<unknown> {
  * const better = leftOut.after < leftOut.before ? scenario : pointerScenario(targets);
  * ```
  */
-export async function fit<S extends Omit<Scenario, "destinations">>(
+export function fit<S extends Omit<Scenario, "destinations">>(
   tracks: readonly Track[],
   scenario: S,
-  options: FitOptions = {},
+  options?: FitOptions,
 ): Promise<Fitted<S>> {
-  const { progress, ...others } = options;
-  if (progress !== undefined && typeof progress !== "function") {
-    throw new WhitherError("wrong-type", "progress", "must be a function");
-  }
-  const given = plain({ ...others, tracks, scenario });
-  loading ??= load().catch((error: unknown) => {
-    loading = undefined;
-    throw error;
-  });
-  await loading;
-  let thrown: { readonly error: unknown } | undefined;
-  const listener = {
-    tell(share: number, loss: number): boolean {
-      try {
-        return progress?.({ share, loss }) !== false;
-      } catch (error) {
-        thrown = { error };
-        return false;
-      }
-    },
-  };
-  const fitted = search(given, listener) as Fitted<S>;
-  if (thrown) throw thrown.error;
-  return fitted;
+  return learn(() => unpack(base64, "learn where it does"), tracks, scenario, options);
 }

@@ -100,5 +100,6 @@ class Copier {
 
 /** Whether `value` crosses as a list. */
 export function isList(value: unknown): value is ArrayLike<unknown> {
-  return Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
+  // of all views, a DataView alone has no length; its class may be another realm's
+  return Array.isArray(value) || (ArrayBuffer.isView(value) && "length" in value);
 }

@@ -1,16 +1,7 @@
 /**
- * `whither` where code may not compile WebAssembly at run time (Cloudflare Workers): the module comes compiled, by import.
+ * `whither` where code may not compile WebAssembly at run time.
  *
  * @module
  */
-import { load } from "./glue.js";
-import type { InitOptions } from "./embedded.js";
-import compiledModule from "./whither.wasm";
-
+export { init, type InitOptions } from "./imported.js";
 export * from "./exports.js";
-export type { InitOptions } from "./embedded.js";
-
-/** As in `whither`: {@link index!init}. */
-export function init(options?: InitOptions): Promise<void> {
-  return load(() => options?.wasm ?? compiledModule);
-}

@@ -84,10 +84,24 @@ function xtask(...args) {
   return run("cargo", ["run", "--quiet", ...tools, "--", ...args]);
 }
 
-function bindgen(snipped, name) {
-  // The address of the file stays out of the code: bundlers would emit a second copy of it.
-  const options = ["--target", "web", "--omit-default-module-path", "--remove-producers-section"];
-  return xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, snipped);
+/** The classes that call WebAssembly and the functions that it calls. `js/start.ts` brings both together. */
+async function bindgen(snipped, name) {
+  const options = ["--target", "bundler", "--remove-producers-section"];
+  await xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, snipped);
+  const file = (end) => join(root, generated, `${name}${end}`);
+  // What it would make when it is imported, `js/platform.ts` makes when it is used.
+  const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../platform.ts";\n';
+  const called = [];
+  const inside = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function (__wb\w+))/gm, (text, function_) => {
+    if (function_ === "__wbg_set_wasm") return text;
+    called.push(function_);
+    return "";
+  });
+  const imports = `export function imports() {\n  return { "./${name}_bg.js": { ${called.join(", ")} } };\n}\n`;
+  writeFileSync(file(".js"), `${lazy}${inside}\n${imports}`);
+  const declared = "export function __wbg_set_wasm(exports: object): void;\nexport function imports(): WebAssembly.Imports;\n";
+  writeFileSync(file(".d.ts"), `${readFileSync(file(".d.ts"), "utf8")}\n${declared}`);
+  rmSync(file("_bg.js"));
 }
 
 async function optimise(name) {

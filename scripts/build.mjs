@@ -1,5 +1,5 @@
 // `npm run build`: dist/, which is what the package ships.
-import { copyFileSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { buildWasm, modules } from "./build-wasm.mjs";
 import { incremental } from "./incremental.mjs";
@@ -10,26 +10,45 @@ const dist = join(root, "dist");
 
 /** What is bundled together, and the WebAssembly that it loads. */
 const bundles = [
-  { entries: ["index", "slim", "workerd"], file: "whither.wasm" },
-  { entries: ["pointing"], file: "pointing.wasm" },
-  { entries: ["study"] },
+  { entries: ["index", "slim", "workerd"], module: "whither" },
+  { entries: ["pointing"], module: "pointing" },
+  { entries: ["pointing-workerd"], module: "pointing" },
+  { entries: ["study"], module: "study" },
+  { entries: ["study-workerd"], module: "study" },
 ];
 
 /** Modules of their own, of which each entry takes what it needs: large ones, and the class of errors, the same for all. */
 const apart = ["error", ...modules.map(({ bytes }) => `generated/${bytes}`)];
 
+/** For resolvers that do not read `exports`: files beside package.json, where they look for `whither/slim` and the others. */
+const beside = ["slim", "pointing", "study"];
+
+/**
+ * The syntax: what README promises (Chrome and Edge 94, Firefox 113, Safari 16.4, Node 20.19), and no static blocks, which Metro
+ * does not read.
+ */
+const syntax = {
+  target: ["chrome94", "edge94", "firefox113", "safari16.4", "node20.19"],
+  supported: { "class-static-blocks": false },
+};
+
 export async function build() {
   await setUp();
   await buildWasm();
   const inputs = ["js", "tsconfig.json", "package.json", "package-lock.json", "scripts/build.mjs"];
-  const outputs = ["dist/index.js", "dist/types/index.d.ts", "dist/whither.wasm", "dist/pointing.wasm"];
+  const files = ["dist/index.js", "dist/types/index.d.ts", ...modules.map(({ name }) => `dist/${name}.wasm`)];
+  const outputs = [...files, ...beside.flatMap((name) => [`${name}.js`, `${name}.d.ts`])];
   await incremental("dist", { inputs, outputs, doing: "building the package, dist/" }, async () => {
     await run("node", ["node_modules/typescript/bin/tsc", "--project", "tsconfig.json"]);
     rmSync(dist, { recursive: true, force: true });
     await bundle();
     await declare();
-    for (const name of ["whither", "pointing"]) {
+    for (const { name } of modules) {
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
+    }
+    for (const name of beside) {
+      writeFileSync(join(root, `${name}.js`), `export * from "./dist/${name}.js";\n`);
+      writeFileSync(join(root, `${name}.d.ts`), `export * from "./dist/types/${name}.js";\n`);
     }
   });
 }
@@ -37,28 +56,32 @@ export async function build() {
 /** One file for each entry, one that those of `whither` share (so that the loaded engine is the same), and those apart. */
 async function bundle() {
   const esbuild = await import("esbuild");
-  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", target: "es2022", format: "esm" };
-  for (const { entries, file = "" } of bundles) {
+  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", format: "esm", ...syntax };
+  // An uncaught error prints the line that threw it, so lines are short; the maps lead from them to js/.
+  const readable = { lineLimit: 120, sourcemap: true };
+  for (const { entries, module } of bundles) {
     await esbuild.build({
       ...small,
+      ...readable,
       absWorkingDir: root,
       entryPoints: entries.map((name) => `js/${name}.ts`),
       outdir: "dist",
       bundle: true,
       splitting: entries.length > 1,
       chunkNames: "shared",
-      define: { WASM_FILE: JSON.stringify(file) },
+      define: { WASM_FILE: JSON.stringify(`${module}.wasm`) },
       plugins: [
-        { name: "own files", setup: (plugin) => keepApart(plugin, file.replace(".wasm", "")) },
+        { name: "own files", setup: (plugin) => keepApart(plugin, module) },
         { name: "short names", setup: ({ onLoad }) => onLoad({ filter: /\/generated\/\w+\.js$/ }, shorten) },
       ],
     });
   }
   for (const name of apart) {
-    const source = name.startsWith("generated/") ? `js/${name}.js` : `js/${name}.ts`;
-    await esbuild.build({ ...small, absWorkingDir: root, entryPoints: [source], outdir: "dist" });
+    const error = name === "error";
+    const source = error ? `js/${name}.ts` : `js/${name}.js`;
+    await esbuild.build({ ...small, ...(error ? readable : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
   }
-  const found = readdirSync(dist).sort().join(" ");
+  const found = readdirSync(dist).filter((name) => !name.endsWith(".map")).sort().join(" ");
   const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];
   const expected = names.map((name) => `${name}.js`).sort().join(" ");
   if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
@@ -67,7 +90,8 @@ async function bundle() {
 /** The generated code under short names, which nobody sees; classes and functions that users see keep theirs. */
 async function shorten({ path }) {
   const { transform } = await import("esbuild");
-  const { code } = await transform(readFileSync(path, "utf8"), { minify: true, target: "es2022" });
+  const options = { minify: true, sourcemap: "inline", sourcefile: basename(path), ...syntax };
+  const { code } = await transform(readFileSync(path, "utf8"), options);
   return { contents: code };
 }
 
@@ -75,11 +99,11 @@ async function shorten({ path }) {
 function keepApart({ onResolve }, module) {
   const own = modules.find(({ name }) => name === module);
   for (const name of apart) {
-    const of = name === "generated/bytes" && own ? `generated/${own.bytes}` : name;
+    const of = name === "generated/bytes" ? `generated/${own.bytes}` : name;
     onResolve({ filter: new RegExp(`/${name}\\.(js|ts)$`) }, () => ({ path: `./${basename(of)}.js`, external: true }));
   }
   onResolve({ filter: /\/generated\/whither\.js$/ }, () => ({ path: join(root, `js/generated/${own.name}.js`) }));
-  onResolve({ filter: /^\.\/whither\.wasm$/ }, () => ({ path: "./whither.wasm", external: true }));
+  onResolve({ filter: /^\.\/\w+\.wasm$/ }, () => ({ path: `./${own.name}.wasm`, external: true }));
 }
 
 /** The declarations, without what is not exported. */
@@ -97,6 +121,7 @@ async function declare() {
     banner: '/// <reference lib="esnext.disposable" />',
   });
   await bundle.close();
+  copyFileSync(join(root, "js/module.d.ts"), join(dist, "types/module.d.ts"));
 }
 
 await main(import.meta.url, build);

@@ -1,8 +1,12 @@
 // From an import that does nothing to a loaded module, in one story: each test goes on where the last one ended.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { after, before, test } from "node:test";
+import { runInNewContext } from "node:vm";
+import { gzipSync } from "node:zlib";
+import { fit } from "whither/study";
 import * as slim from "whither/slim";
 import { ConditionallyMarkovSequence, init, initSync, pointerScenario, Predictor, WhitherError } from "whither";
 import { refuses, small } from "./support.mjs";
@@ -87,21 +91,87 @@ test("something that is no source at all", async () => {
   refuses(() => initSync(), "wrong-type", "module", "must be a WebAssembly.Module or its bytes");
 });
 
+test("bytes that are cut off or damaged are blamed, and neither a policy nor the engine", async () => {
+  const change = (at, byte) => Uint8Array.from(bytes).fill(byte, at, at + 1);
+  const cases = [8, 9, 1000, bytes.length >> 1, bytes.length - 1].map((length) => bytes.subarray(0, length));
+  for (const wasm of [...cases.slice(1), change(4, 2), change(20, 255), change(bytes.length >> 1, 255)]) {
+    await assert.rejects(slim.init({ wasm }), ({ code, message }) => {
+      assert.equal(code, "wasm-unavailable");
+      const start = `the given bytes must be WebAssembly, is damaged or cut off after ${wasm.length} bytes: `;
+      assert.ok(message.startsWith(start), message);
+      assert.match(message, /@\+\d+/, "the place that the engine names");
+      assert.doesNotMatch(message, /policy|SIMD/i);
+      return true;
+    });
+    assert.throws(() => initSync({ module: wasm }), { code: "wasm-unavailable", message: /damaged or cut off/ });
+  }
+  await fails(slim.init({ wasm: cases[0] }), "wasm-unavailable", "the module is not this version's whither.wasm: it has no __wbindgen_start");
+  const gone = new ArrayBuffer(8);
+  structuredClone(gone, { transfer: [gone] });
+  const detached = "the given bytes cannot be read: Cannot perform Construct on a detached ArrayBuffer";
+  await fails(slim.init({ wasm: gone }), "wasm-unavailable", detached);
+  await fails(slim.init({ wasm: new Uint8Array() }), "wasm-unavailable", "the given bytes must be WebAssembly, has no bytes");
+  await fails(slim.init({ wasm: gzipSync(bytes) }), "wasm-unavailable", "the given bytes must be WebAssembly, is gzipped");
+});
+
+test("an engine without SIMD is told so", { skip: process.arch !== "x64" }, () => {
+  // V8 has no SIMD without these instructions of the processor
+  const program = 'import("whither").then(({ init }) => init()).then(() => 0, ({ code, message }) => console.log(code, message))';
+  const run = spawnSync(process.execPath, ["--no-enable-ssse3", "--no-enable-sse4-1", "-e", program], { encoding: "utf8" });
+  assert.match(run.stdout, /^wasm-unavailable the WebAssembly of this engine has no SIMD: /, run.stderr);
+});
+
+test("what a promise is rejected with is told, whatever it is", async () => {
+  const told = async (value, what) => {
+    await fails(init({ wasm: Promise.reject(value) }), "wasm-unavailable", `the promise of it was rejected: ${what}`);
+  };
+  await told(runInNewContext('new TypeError("of another realm")'), "of another realm");
+  await told("words", "words");
+  await told(Symbol("x"), "Symbol(x)");
+  await told(undefined, "undefined");
+  await told(null, "[object Null]");
+  await told(Object.create(null), "[object Object]");
+});
+
 test("WebAssembly that is not allowed, or does not exist", async (t) => {
   t.mock.method(WebAssembly, "compile", async () => {
     throw new WebAssembly.CompileError("blocked by the policy");
   });
   const message =
-    "WebAssembly was refused here (a Content-Security-Policy needs 'wasm-unsafe-eval' in script-src; " +
-    "the engine needs SIMD): blocked by the policy";
+    "WebAssembly was refused here: blocked by the policy " +
+    "(a Content-Security-Policy needs 'wasm-unsafe-eval' in script-src, and nothing else)";
   await fails(init(), "wasm-unavailable", message);
   const { WebAssembly: present } = globalThis;
   globalThis.WebAssembly = undefined;
   try {
-    await fails(init(), "wasm-unavailable", "WebAssembly does not exist here");
+    const message = "WebAssembly does not exist here";
+    await fails(init(), "wasm-unavailable", message);
+    await fails(slim.init(), "wasm-unavailable", message);
+    await fails(fit([], {}), "wasm-unavailable", message);
+    refuses(() => initSync({ module: bytes }), "wasm-unavailable", "", message);
   } finally {
     globalThis.WebAssembly = present;
   }
+});
+
+test("what is missing of the platform is named", async () => {
+  for (const name of ["TextDecoder", "TextEncoder"]) {
+    const present = globalThis[name];
+    globalThis[name] = undefined;
+    try {
+      await fails(init(), "wasm-unavailable", `${name} does not exist here`);
+    } finally {
+      globalThis[name] = present;
+    }
+  }
+});
+
+test("bytes inside the package that cannot be unpacked", async (t) => {
+  t.mock.method(globalThis, "atob", () => "no gzip at all");
+  await assert.rejects(init(), {
+    code: "wasm-unavailable",
+    message: /^the WebAssembly inside the package cannot be unpacked: .+; use init\(\{ wasm \}\) with whither\/whither\.wasm$/,
+  });
 });
 
 test("without DecompressionStream", async () => {

@@ -1,0 +1,15 @@
+/**
+ * `init` of the entries for where code may not compile WebAssembly at run time (Cloudflare Workers): the module comes compiled, by
+ * import.
+ *
+ * @module
+ */
+import { loadWith, type InitOptions } from "./loading.js";
+import compiledModule from "./whither.wasm";
+
+export type { InitOptions };
+
+/** As in `whither`: {@link index!init}. */
+export function init(options?: InitOptions): Promise<void> {
+  return loadWith(options, (wasm) => wasm ?? compiledModule);
+}

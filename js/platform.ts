@@ -1,0 +1,44 @@
+/**
+ * What the generated code takes from its surroundings, under the same names, made when it is first used: the generated code makes
+ * them where it is imported, and nothing may happen there.
+ *
+ * @module
+ */
+
+/** A `TextDecoder` for UTF-8. */
+export class TextDecoder {
+  #real: globalThis.TextDecoder | undefined;
+
+  decode(bytes?: Uint8Array): string {
+    if (bytes === undefined) return "";
+    return (this.#real ??= new globalThis.TextDecoder("utf-8", { ignoreBOM: true })).decode(bytes);
+  }
+}
+
+/** A `TextEncoder`. */
+export class TextEncoder {
+  #real: globalThis.TextEncoder | undefined;
+
+  encodeInto(text: string, into: Uint8Array): { written: number } {
+    return (this.#real ??= new globalThis.TextEncoder()).encodeInto(text, into);
+  }
+}
+
+/** A `FinalizationRegistry`; where there is none, nothing is freed by itself. */
+export class FinalizationRegistry<T> {
+  readonly #free: (held: T) => void;
+  #real: globalThis.FinalizationRegistry<T> | undefined;
+
+  constructor(free: (held: T) => void) {
+    this.#free = free;
+  }
+
+  register(object: object, held: T): void {
+    if (typeof globalThis.FinalizationRegistry !== "function") return;
+    (this.#real ??= new globalThis.FinalizationRegistry(this.#free)).register(object, held, object);
+  }
+
+  unregister(object: object): void {
+    this.#real?.unregister(object);
+  }
+}
