@@ -1,6 +1,9 @@
 /**
  * A WebAssembly file of this package, as it is where an import of one gives a compiled module (Cloudflare Workers): for
- * `init({ wasm })` and `initSync({ module })`. A bundler that makes an address of it gives that to `init({ wasm })` as well.
+ * `init({ wasm })` and `initSync({ module })`. Where a bundler makes an address of it, that too is for `init({ wasm })`.
  */
-declare const compiledModule: import("./index.js").CompiledModule;
+declare const compiledModule: Compiled;
 export default compiledModule;
+
+/** `WebAssembly.Module`, where the program's libraries have it. */
+type Compiled = typeof globalThis extends { WebAssembly: { Module: { prototype: infer Module } } } ? Module : object;

@@ -45,6 +45,7 @@ export async function build() {
     await declare();
     for (const { name } of modules) {
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
+      copyFileSync(join(root, "js/module.d.ts"), join(dist, `${name}.wasm.d.ts`));
     }
     for (const name of beside) {
       writeFileSync(join(root, `${name}.js`), `export * from "./dist/${name}.js";\n`);
@@ -121,7 +122,6 @@ async function declare() {
     banner: '/// <reference lib="esnext.disposable" />',
   });
   await bundle.close();
-  copyFileSync(join(root, "js/module.d.ts"), join(dist, "types/module.d.ts"));
 }
 
 await main(import.meta.url, build);

@@ -25,14 +25,27 @@ test("the package", async (t) => {
       "README.md",
       "dist/bytes.js",
       "dist/error.js",
+      "dist/error.js.map",
       "dist/index.js",
+      "dist/index.js.map",
       "dist/pointing-bytes.js",
+      "dist/pointing-workerd.js",
+      "dist/pointing-workerd.js.map",
       "dist/pointing.js",
+      "dist/pointing.js.map",
       "dist/pointing.wasm",
+      "dist/pointing.wasm.d.ts",
       "dist/shared.js",
+      "dist/shared.js.map",
       "dist/slim.js",
+      "dist/slim.js.map",
       "dist/study-bytes.js",
+      "dist/study-workerd.js",
+      "dist/study-workerd.js.map",
       "dist/study.js",
+      "dist/study.js.map",
+      "dist/study.wasm",
+      "dist/study.wasm.d.ts",
       "dist/types/index.d.ts",
       "dist/types/pointing.d.ts",
       "dist/types/shared.d.ts",
@@ -41,8 +54,16 @@ test("the package", async (t) => {
       "dist/types/slim.d.ts",
       "dist/types/study.d.ts",
       "dist/whither.wasm",
+      "dist/whither.wasm.d.ts",
       "dist/workerd.js",
+      "dist/workerd.js.map",
       "package.json",
+      "pointing.d.ts",
+      "pointing.js",
+      "slim.d.ts",
+      "slim.js",
+      "study.d.ts",
+      "study.js",
     ]);
   });
 
@@ -79,13 +100,13 @@ test("the package", async (t) => {
   }
 
   await t.test("names no address of the WebAssembly, of which bundlers would make a second copy", () => {
-    for (const name of ["index", "shared", "slim", "pointing", "study"]) {
+    for (const name of ["index", "shared", "slim", "pointing", "study", "workerd", "pointing-workerd", "study-workerd"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /import\.meta\.url|whither_bg\.wasm|pointing_bg\.wasm/);
     }
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing"]) {
+    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

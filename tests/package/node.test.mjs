@@ -3,6 +3,7 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { build } from "esbuild";
+import { capture } from "../../scripts/run.mjs";
 import { serve } from "../../scripts/serve.mjs";
 import { assertPredicted, copy, inNode, project, write } from "./support.mjs";
 
@@ -52,14 +53,71 @@ test("in Node", async (t) => {
     });
   }
 
-  await t.test("an import does nothing: no request, no compilation, no unpacking", async () => {
+  await t.test("an import does nothing: no request, no compilation, nothing of the platform is asked for or made", async () => {
+    // The language itself may be used: classes are made, and an error is one that extends another.
+    const language = ["Object", "Function", "Array", "String", "Symbol", "Error", "Promise", "Reflect", "globalThis", "undefined"];
     const text = `const touched = [];
-      const watch = (object, name) => Object.defineProperty(object, name, { get: () => void touched.push(name) });
-      for (const name of ["fetch", "DecompressionStream", "atob", "Response"]) watch(globalThis, name);
+      const names = Object.getOwnPropertyNames(globalThis).filter((name) => !${JSON.stringify(language)}.includes(name));
+      const present = new Map(names.map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)]));
+      const watch = (object, name) => Object.defineProperty(object, name, { configurable: true, get: () => void touched.push(name) });
       for (const name of ["compile", "instantiate", "Module", "Instance"]) watch(WebAssembly, name);
-      await import("whither"); await import("whither/slim"); await import("whither/pointing");
-      console.log(JSON.stringify(touched));`;
-    assert.deepEqual(await inNode(folder, "quiet.mjs", text), []);
+      for (const [name, { configurable }] of present) if (configurable) watch(globalThis, name);
+      // what Node's own loader reads of the global object while it loads
+      await import("./nothing.mjs");
+      const node = touched.splice(0);
+      for (const entry of ["whither", "whither/slim", "whither/pointing", "whither/study"]) await import(entry);
+      for (const [name, descriptor] of present) if (descriptor.configurable) Object.defineProperty(globalThis, name, descriptor);
+      console.log(JSON.stringify({ watched: present.size, touched: touched.filter((name) => !node.includes(name)) }));`;
+    write(folder, "nothing.mjs", "export {};");
+    const { watched, touched } = await inNode(folder, "quiet.mjs", text);
+    assert.deepEqual(touched, []);
+    assert.ok(watched > 100, `${watched} globals were watched`);
+  });
+
+  await t.test("without WebAssembly every way to load rejects, and the process lives", async () => {
+    const text = `const told = [];
+      const tell = (error) => told.push([error?.name, error?.code, error?.message].join());
+      for (const entry of ["whither", "whither/slim", "whither/pointing"]) {
+        const { init, initSync } = await import(entry);
+        await init().catch(tell);
+        await init({ wasm: "http://localhost:1/whither.wasm" }).catch(tell);
+        await init({ wasm: new Uint8Array(8) }).catch(tell);
+        try { initSync({ module: new Uint8Array(8) }); } catch (error) { tell(error); }
+      }
+      const { fit } = await import("whither/study");
+      await fit([], {}).catch(tell);
+      console.log(JSON.stringify(told));`;
+    write(folder, "jitless.mjs", text);
+    const { code, output } = await capture("node", ["--jitless", "jitless.mjs"], { cwd: folder });
+    assert.equal(code, 0, output);
+    const told = JSON.parse(output.trim().split("\n").at(-1)); // V8 warns of the flag
+    const expected = "WhitherError,wasm-unavailable,WebAssembly does not exist here";
+    assert.deepEqual(told, Array.from({ length: 13 }, () => expected));
+  });
+
+  await t.test("an error that nobody catches prints a few lines, and with source maps the place in js/", async () => {
+    const uses = {
+      "by Rust": 'await init(); new Predictor({ motion: 1 });',
+      "by TypeScript": 'await init(); new Predictor(() => 1);',
+      "before init": "new Predictor({});",
+      "by a promise": "init(5);",
+      "by another": 'await init(); const p = new Predictor(pointerScenario([{ id: "a", x: 0, y: 0, width: 1, height: 1 }])); p.free(); p.free();',
+    };
+    for (const entry of ["whither", "whither/pointing", "whither/slim"]) {
+      for (const [what, use] of Object.entries(uses)) {
+        const wasm = entry === "whither/slim" ? use.replace("init()", 'init({ wasm: (await import("node:fs")).readFileSync("site/whither.wasm") })') : use;
+        write(folder, "uncaught.mjs", `import { init, Predictor, pointerScenario } from "${entry}"; ${wasm}`);
+        for (const flags of [[], ["--enable-source-maps"]]) {
+          const { code, output } = await capture("node", [...flags, "uncaught.mjs"], { cwd: folder });
+          assert.equal(code, 1);
+          assert.match(output, /WhitherError: /, output.slice(0, 400));
+          const lines = output.split("\n");
+          const longest = Math.max(...lines.map((line) => line.length));
+          assert.ok(lines.length < 32 && longest < 600, `${entry} ${what}: ${lines.length} lines, the longest of ${longest}`);
+          if (flags.length > 0) assert.match(output, /js\/\w+\.ts:\d+/, `${entry} ${what}`);
+        }
+      }
+    }
   });
 
   await t.test("whither/slim takes bytes", async () => assertPredicted(await slim("bytes")));
@@ -108,26 +166,42 @@ test("in Node", async (t) => {
     assertPredicted(probabilities);
   });
 
-  await t.test("the workerd build takes the module that the platform compiled", async () => {
-    write(folder, "worker.js", `import * as whither from "whither"; import { predict } from "./predict.js"; ${answer}`);
+  await t.test("where code may not compile, each entry takes the module that the platform compiled", async () => {
+    const programs = {
+      whither: `import * as whither from "whither"; import { predict } from "./predict.js"; ${answer}`,
+      "whither/pointing": `import { init, pointerScenario, Predictor } from "whither/pointing"; await init();
+        const predictor = new Predictor(pointerScenario([{ id: "a", x: 0, y: 0, width: 9, height: 9 }]));
+        predictor.observe(0, [9, 9]); console.log(JSON.stringify(predictor.best.id));`,
+      "whither/study": `import { fit } from "whither/study"; console.log(JSON.stringify(await fit([], {}).catch(({ code }) => code)));`,
+      "whither/slim": `import * as slim from "whither/slim"; import wasm from "whither/whither.wasm"; import { predict } from "./predict.js";
+        console.log(JSON.stringify(await predict(slim, { wasm })));`,
+    };
+    const expected = { "whither/pointing": "a", "whither/study": "out-of-range" };
     // The platform's way with an imported .wasm file: it comes as a compiled module.
     const compiled = ({ onLoad }) =>
       onLoad({ filter: /\.wasm$/ }, ({ path }) => ({
         contents: `import { readFileSync } from "node:fs"; export default new WebAssembly.Module(readFileSync(${JSON.stringify(path)}));`,
       }));
-    const { outputFiles } = await build({
-      absWorkingDir: folder,
-      entryPoints: ["worker.js"],
-      bundle: true,
-      write: false,
-      format: "esm",
-      conditions: ["workerd"],
-      external: ["node:fs"],
-      plugins: [{ name: "compiled", setup: compiled }],
-    });
-    // Node compiles a parser of its own when Response is first named; after that, nothing may be compiled.
-    const text = `void globalThis.Response; const forbid = () => { throw new Error("not allowed here"); };
-      WebAssembly.compile = WebAssembly.compileStreaming = forbid;\n`;
-    assertPredicted(await inNode(folder, "worker.mjs", `${text}${outputFiles[0].text}`));
+    for (const [entry, program] of Object.entries(programs)) {
+      write(folder, "worker.js", program);
+      const { outputFiles, metafile } = await build({
+        absWorkingDir: folder,
+        entryPoints: ["worker.js"],
+        bundle: true,
+        write: false,
+        metafile: true,
+        format: "esm",
+        conditions: ["workerd"],
+        external: ["node:fs"],
+        plugins: [{ name: "compiled", setup: compiled }],
+      });
+      assert.deepEqual(Object.keys(metafile.inputs).filter((name) => name.includes("bytes")), [], `${entry} brings no bytes`);
+      // Node compiles a parser of its own when Response is first named; after that, nothing may be compiled.
+      const text = `void globalThis.Response; const forbid = () => { throw new Error("not allowed here"); };
+        WebAssembly.compile = WebAssembly.compileStreaming = forbid;\n`;
+      const outcome = await inNode(folder, "worker.mjs", `${text}${outputFiles[0].text}`);
+      if (entry in expected) assert.equal(outcome, expected[entry]);
+      else assertPredicted(outcome);
+    }
   });
 });

@@ -3,7 +3,7 @@
 import { after, before, describe, it, test } from "node:test";
 import assert from "node:assert/strict";
 import { cpSync, readFileSync, symlinkSync } from "node:fs";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import * as esbuild from "esbuild";
 import { launch } from "../../scripts/chromium.mjs";
 import { capture, root } from "../../scripts/run.mjs";
@@ -21,7 +21,7 @@ test("the README's code", async (t) => {
 
   await t.test("names the file that is installed until the package is on npm", () => {
     const [commands] = blocks("sh");
-    assert.match(commands, new RegExp(`npm pack .*: builds ${tarball}\nnpm install PATH/TO/${tarball} `));
+    assert.match(commands, new RegExp(`npm pack .*: builds ${basename(tarball)}\nnpm install PATH/TO/${basename(tarball)} `));
     assert.match(readme, /on no registry yet/);
   });
 

@@ -37,8 +37,8 @@ export function assertPredicted(probabilities) {
 }
 
 /**
- * Packs the package and installs the tarball into an empty project. Gives its folder, the tarball's name and the list of the
- * packed files.
+ * Packs the package and installs the tarball into an empty project. Gives its folder, the path of the tarball and the list of its files; all
+ * is removed after the test.
  */
 export async function project(t) {
   const folder = realpathSync(mkdtempSync(join(tmpdir(), "whither-package-")));
@@ -49,7 +49,7 @@ export async function project(t) {
   write(folder, "package.json", JSON.stringify({ name: "a-users-project", private: true, type: "module" }));
   await npm(["install", "--offline", "--no-audit", "--no-fund", join(folder, tarball.filename)], folder);
   write(folder, "predict.js", predict);
-  return { folder, tarball: tarball.filename, files: tarball.files.map(({ path }) => path) };
+  return { folder, tarball: join(folder, tarball.filename), files: tarball.files.map(({ path }) => path) };
 }
 
 async function npm(args, cwd) {

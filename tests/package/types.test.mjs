@@ -63,31 +63,70 @@ new Predictor({ ...scenario, motion: { type: "constantSpeed", dimensions: 2, noi
 new Predictor(scenario).observe("0", [1, 2]);
 `;
 
+/** The WebAssembly, as an import of it gives it. */
+const imported = (entry) => `
+import compiledModule from "${entry}";
+import { init, initSync } from "whither/slim";
+
+export const loaded = init({ wasm: compiledModule });
+initSync({ module: compiledModule });
+`;
+
+const dom = ["ES2022", "DOM"];
 const users = {
   "ES2020 and nothing else": { target: "ES2020", lib: ["ES2020"], module: "nodenext", moduleResolution: "nodenext" },
-  "a bundler and the DOM": { target: "ES2022", lib: ["ES2022", "DOM"], module: "esnext", moduleResolution: "bundler" },
+  "a bundler and the DOM": { target: "ES2022", lib: dom, module: "esnext", moduleResolution: "bundler" },
   "the newest libraries": { target: "ESNext", lib: ["ESNext", "DOM"], module: "preserve" },
+  "a resolver that does not read exports": { target: "ES2022", lib: dom, module: "esnext", moduleResolution: "node10" },
 };
+const compilers = { "this TypeScript": "typescript", "the oldest one": "typescript-floor" };
 
 test("the declarations compile", async (t) => {
   const { folder } = await project(t);
-  write(folder, "use.ts", program);
+  const compiles = async (files, options, compiler = "typescript") => {
+    for (const [name, text] of Object.entries(files)) write(folder, name, text);
+    write(folder, "tsconfig.json", JSON.stringify({ compilerOptions: { ...strict, ...options }, files: Object.keys(files) }));
+    const { code, output } = await capture("node", [join(root, "node_modules", compiler, "bin/tsc")], { cwd: folder });
+    assert.equal(code, 0, output);
+  };
+
   for (const [name, options] of Object.entries(users)) {
-    await t.test(`for ${name}`, async () => {
-      write(folder, "tsconfig.json", JSON.stringify({ compilerOptions: { ...strict, ...options }, files: ["use.ts"] }));
-      const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
-      assert.equal(code, 0, output);
-    });
+    for (const [by, compiler] of Object.entries(compilers)) {
+      // "preserve" is younger than it
+      if (compiler === "typescript-floor" && options.module === "preserve") continue;
+      await t.test(`for ${name}, by ${by}`, () => compiles({ "use.ts": program }, options, compiler));
+      await t.test(`for ${name}, by ${by}, with the WebAssembly by import`, async () => {
+        const where = options.moduleResolution === "node10" ? "whither/dist" : "whither";
+        const modules = ["whither.wasm", "pointing.wasm"].map((file) => [`${file}.ts`, imported(`${where}/${file}`)]);
+        await compiles(Object.fromEntries(modules), options, compiler);
+      });
+    }
   }
+
+  await t.test("where the library has WebAssembly, an imported module is one", async () => {
+    const text = 'import module from "whither/whither.wasm"; export const names: string[] = WebAssembly.Module.exports(module).map(({ name }) => name);';
+    await compiles({ "module.ts": text }, users["a bundler and the DOM"]);
+  });
+
+  await t.test("for a CommonJS file", async () => {
+    const text = 'import whither = require("whither"); import { fit } from "whither/study"; export = [whither.init(), fit];';
+    await compiles({ "common.cts": text }, { target: "ES2022", lib: ["ES2022"], module: "nodenext" });
+  });
+
+  await t.test("and `using` frees", async () => {
+    const text = `import { ConditionallyMarkovSequence, Predictor, type Scenario, type SequenceParameters } from "whither";
+      export function use(scenario: Scenario, parameters: SequenceParameters) {
+        using predictor = new Predictor(scenario);
+        using sequence = new ConditionallyMarkovSequence(parameters);
+        return [predictor.none, sequence.destination()];
+      }`;
+    await compiles({ "using.ts": text }, { target: "ES2022", lib: ["ES2022", "ESNext.Disposable"], module: "nodenext" });
+  });
 
   await t.test("and take what a browser has as the WebAssembly", async () => {
     const text = `import { init } from "whither/slim";
       export const all = (module: WebAssembly.Module, view: Uint8Array) =>
         [new URL("https://example.org/"), fetch("/whither.wasm"), new Response(), "/whither.wasm", view, view.buffer, module].map((wasm) => init({ wasm }));`;
-    write(folder, "browser.ts", text);
-    const compilerOptions = { ...strict, ...users["a bundler and the DOM"] };
-    write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["browser.ts"] }));
-    const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
-    assert.equal(code, 0, output);
+    await compiles({ "browser.ts": text }, users["a bundler and the DOM"]);
   });
 });
