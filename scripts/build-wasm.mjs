@@ -91,17 +91,20 @@ async function bindgen(snipped, name) {
   const file = (end) => join(root, generated, `${name}${end}`);
   // What it would make when it is imported, `js/platform.ts` makes when it is used.
   const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../platform.ts";\n';
-  const called = [];
-  const inside = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function (__wb\w+))/gm, (text, function_) => {
-    if (function_ === "__wbg_set_wasm") return text;
-    called.push(function_);
-    return "";
-  });
-  const imports = `export function imports() {\n  return { "./${name}_bg.js": { ${called.join(", ")} } };\n}\n`;
-  writeFileSync(file(".js"), `${lazy}${inside}\n${imports}`);
+  const code = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function __wb(?!g_set_wasm\b))/gm, "");
+  const called = imported(file("_bg.wasm")).map(({ name }) => name);
+  await xtask("number", file("_bg.wasm"), file("_bg.wasm"));
+  const [{ module }] = imported(file("_bg.wasm"));
+  const imports = `export function imports() {\n  return { "${module}": [${called.join(", ")}] };\n}\n`;
+  writeFileSync(file(".js"), `${lazy}${code}\n${imports}`);
   const declared = "export function __wbg_set_wasm(exports: object): void;\nexport function imports(): WebAssembly.Imports;\n";
   writeFileSync(file(".d.ts"), `${readFileSync(file(".d.ts"), "utf8")}\n${declared}`);
   rmSync(file("_bg.js"));
+}
+
+/** What a file of WebAssembly imports. */
+function imported(file) {
+  return WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(file)));
 }
 
 async function optimise(name) {

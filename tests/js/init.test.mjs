@@ -94,7 +94,7 @@ test("something that is no source at all", async () => {
 test("bytes that are cut off or damaged are blamed, and neither a policy nor the engine", async () => {
   const change = (at, byte) => Uint8Array.from(bytes).fill(byte, at, at + 1);
   const cases = [8, 9, 1000, bytes.length >> 1, bytes.length - 1].map((length) => bytes.subarray(0, length));
-  for (const wasm of [...cases.slice(1), change(4, 2), change(20, 255), change(bytes.length >> 1, 255)]) {
+  for (const wasm of [...cases.slice(1), change(4, 2), change(8, 255), change(12, 255)]) {
     await assert.rejects(slim.init({ wasm }), ({ code, message }) => {
       assert.equal(code, "wasm-unavailable");
       const start = `the given bytes must be WebAssembly, is damaged or cut off after ${wasm.length} bytes: `;

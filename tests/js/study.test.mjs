@@ -98,7 +98,7 @@ const broken = (changes) => [good, { ...good, ...changes }];
 const cases = [
   ["no tracks", undefined, walk, {}, "missing-key", "tracks", 'missing key "tracks"'],
   ["no scenario", [good], undefined, {}, "missing-key", "scenario", 'missing key "scenario"'],
-  ["an unknown option", [good], walk, { constant: [] }, "unknown-key", "constant", 'unknown key "constant", expected one of "tracks", "scenario", "constants", "evaluations", "destination"'],
+  ["an unknown option", [good], walk, { constant: [] }, "unknown-key", "constant", 'unknown key "constant", expected one of "constants", "evaluations", "destination", "progress"'],
   ["an unknown key of a track", broken({ speed: 1 }), walk, {}, "unknown-key", "tracks[1].speed", 'unknown key "speed", expected one of "id", "user", "targets", "target", "samples"'],
   ["a target that is not there", broken({ target: 2 }), walk, {}, "out-of-range", "tracks[1].target", "must be the place of one of the 2 targets, counted from 0, got 2"],
   ["time that runs back", broken({ samples: [[1, 0, 0], [0.5, 0, 0]] }), walk, {}, "time-not-increasing", "tracks[1].samples[1]", "must not be before the sample at 1, got [0.5, 0, 0]"],

@@ -1,9 +1,10 @@
 //! The project's own copy of the wasm-bindgen tools, so that Rust and Node are all that a machine needs:
 //! `xtask bindgen ARGS` is `wasm-bindgen`, `xtask test-runner ARGS` is `wasm-bindgen-test-runner`, `xtask snip IN OUT`
-//! makes a file smaller before the former, `xtask arrange IN OUT` brings its functions into an order that compresses well,
-//! `xtask gzip IN OUT` packs it for good.
+//! makes a file smaller before the former, `xtask number IN OUT` gives its imports short names, `xtask arrange IN OUT` brings its
+//! functions into an order that compresses well, `xtask gzip IN OUT` packs it for good.
 
 mod arrange;
+mod imports;
 mod snip;
 mod unused;
 
@@ -17,9 +18,10 @@ fn main() -> ExitCode {
     let tool = arguments.peek().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let outcome = match tool.as_str() {
         "bindgen" => wasm_bindgen::run_cli_with_args(arguments),
-        "snip" | "arrange" | "gzip" => {
+        "snip" | "number" | "arrange" | "gzip" => {
             match &arguments.map(|path| path.to_string_lossy().into_owned()).collect::<Vec<_>>()[..] {
                 [_, from, to] if tool == "snip" => snip::snip(from, to),
+                [_, from, to] if tool == "number" => imports::number(from, to),
                 [_, from, to] if tool == "arrange" => arrange::arrange(from, to),
                 [_, from, to] => gzip(from, to),
                 _ => Err(anyhow::anyhow!("{tool} takes two paths: IN and OUT")),
@@ -27,7 +29,7 @@ fn main() -> ExitCode {
         }
         "test-runner" => wasm_bindgen_test_runner::run_cli_with_args(arguments),
         _ => {
-            eprintln!("unknown tool {tool:?}: it is `bindgen`, `snip`, `arrange`, `gzip` or `test-runner`");
+            eprintln!("unknown tool {tool:?}: it is `bindgen`, `snip`, `number`, `arrange`, `gzip` or `test-runner`");
             return ExitCode::FAILURE;
         }
     };
