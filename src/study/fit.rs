@@ -229,7 +229,7 @@ impl Search<'_> {
             } else {
                 let mut predictor = Predictor::new(&scenario)?;
                 for sample in &track.samples[..approach] {
-                    predictor.observe(sample.time, &sample.position)?;
+                    sample.observe(&mut predictor)?;
                 }
                 let evidence = predictor.log_likelihoods()[track.target];
                 loss -= if evidence.is_finite() { evidence } else { -1e6 };
@@ -300,11 +300,11 @@ mod tests {
     /// Brownian motion of deviation 3 for each root of a second, until it enters the target.
     fn walk(random: &mut Random, user: usize) -> Option<Track> {
         let targets = [30.0, -30.0].map(|x| Target { center: vec![x, 0.0], size: vec![40.0, 40.0] }).to_vec();
-        let mut samples = vec![Sample { time: 0.0, position: vec![0.0, 0.0] }];
+        let mut samples = vec![Sample { time: 0.0, position: vec![0.0, 0.0], missing: vec![] }];
         while samples.len() < 40 && !targets[0].contains(&samples[samples.len() - 1].position) {
             let last = &samples[samples.len() - 1];
             let position = last.position.iter().map(|x| x + 3.0 * random.normal()).collect();
-            samples.push(Sample { time: last.time + 1.0, position });
+            samples.push(Sample { time: last.time + 1.0, position, missing: vec![] });
         }
         let track = Track { id: String::new(), user: user.to_string(), targets, target: 0, samples };
         track.approach().is_some().then_some(track)

@@ -167,7 +167,7 @@ impl Score {
     pub fn of_predictor(track: &Track, approach: usize, predictor: &mut Predictor) -> Result<Self> {
         let mut predictions = Vec::with_capacity(approach);
         for sample in &track.samples[..approach.min(track.samples.len())] {
-            predictor.observe(sample.time, &sample.position)?;
+            sample.observe(predictor)?;
             let top = predictor.best().map(|best| best.index);
             let probabilities = predictor.probabilities();
             let chances = top.map(|top| [probabilities[top], probabilities[track.target]]);

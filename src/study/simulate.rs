@@ -50,7 +50,7 @@ impl Hand {
                 start[0] + way * to[0] - aside * to[1] + self.tremor * random.normal(),
                 start[1] + way * to[1] + aside * to[0] + self.tremor * random.normal(),
             ];
-            Sample { time, position }
+            Sample { time, position, missing: vec![] }
         });
         Track { id: String::new(), user: String::new(), targets: targets.to_vec(), target, samples: samples.collect() }
     }

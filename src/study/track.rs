@@ -1,6 +1,7 @@
 //! Recorded movements: `{"id", "user", "targets": [[x, y, w, h], ...], "target": k, "samples": [[t, x, y], ...]}`.
 
 use crate::error::{Code, Error, Result};
+use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number, say};
 use serde::{Deserialize, Deserializer};
@@ -53,41 +54,62 @@ pub struct Target {
 ///     "target": 1, "targets": [[0, 0, 40, 40], [100, 0, 40, 40]],
 ///     "samples": [[0, 50, 0], [1, 60, 0], [2, 90, 0], [3, 95, 0]]
 /// }"#).unwrap();
-/// assert_eq!(track.samples[2], Sample { time: 2.0, position: vec![90.0, 0.0] });
+/// assert_eq!(track.samples[2], Sample { time: 2.0, position: vec![90.0, 0.0], missing: vec![] });
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// Seconds since any moment.
     pub time: f64,
-    /// One number for each axis.
+    /// One number for each axis; for one that is missing the number before it, at the start of a track the one after it.
     pub position: Vec<f64>,
+    /// The axes that are missing.
+    pub missing: Vec<usize>,
+}
+
+impl Sample {
+    /// Has a predictor observe this sample.
+    ///
+    /// # Errors
+    /// Those of [`Predictor::observe_with`].
+    ///
+    /// ```
+    /// use whither::{Predictor, Scenario, study::track::Sample};
+    /// let scenario: Scenario = serde_json::from_str(r#"{
+    ///     "motion": { "type": "brownian", "dimensions": 2, "noise": 1 }, "observation": { "noise": 1 },
+    ///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
+    ///     "destinations": [{ "id": "a", "center": [0, 0], "size": 1 }, { "id": "b", "center": [9, 0], "size": 1 }]
+    /// }"#).unwrap();
+    /// let [mut told, mut untold] = [(); 2].map(|()| Predictor::new(&scenario).unwrap());
+    /// for predictor in [&mut told, &mut untold] {
+    ///     Sample { time: 0.0, position: vec![4.0, 0.0], missing: vec![] }.observe(predictor).unwrap();
+    /// }
+    /// Sample { time: 1.0, position: vec![4.0, 7.0], missing: vec![1] }.observe(&mut told).unwrap();
+    /// untold.observe_with(1.0, &[Some(4.0), None], None).unwrap();
+    /// assert_eq!(told.probabilities(), untold.probabilities());
+    /// ```
+    pub fn observe(&self, predictor: &mut Predictor) -> Result<()> {
+        if self.missing.is_empty() {
+            return predictor.observe(self.time, &self.position);
+        }
+        let seen = |(axis, x): (usize, &f64)| (!self.missing.contains(&axis)).then_some(*x);
+        let position: Vec<Option<f64>> = self.position.iter().enumerate().map(seen).collect();
+        predictor.observe_with(self.time, &position, None)
+    }
 }
 
 impl Track {
     /// Reads one track: in the plane `targets` are `[x, y, width, height]` about their centres and samples `[t, x, y]`, in
-    /// space `[x, y, z, diameter]` and `[t, x, y, z]`.
+    /// space `[x, y, z, diameter]` and `[t, x, y, z]`. A coordinate of a sample that is null is missing. Numbers as `id` and
+    /// `user` are read as text.
     ///
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`; `out-of-range` for a target that is not in
     /// the list, a size that is not above 0 and an empty list; `time-not-increasing` where the time runs back.
     pub fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["id", "user", "targets", "target", "samples"])?;
-        let text = |key: &'static str| fields.optional(key).map_or(Ok(String::new()), |t| t.text().map(str::to_owned));
-        let list = fields.required("samples")?;
-        let mut samples = Vec::with_capacity(list.items()?.len());
-        for item in list.items()? {
-            let numbers = item.vector(None)?;
-            let sample = Sample {
-                time: numbers.first().copied().unwrap_or(0.0),
-                position: numbers[1.min(numbers.len())..].to_vec(),
-            };
-            check_sample(&sample, samples.last(), &item)?;
-            samples.push(sample);
-        }
-        let Some(first) = samples.first() else {
-            return Err(list.error(Code::OutOfRange, "must have at least one sample"));
-        };
-        let dimensions = first.position.len();
+        let text = |key: &'static str| fields.optional(key).map_or(Ok(String::new()), |node| name(&node));
+        let samples = read_samples(&fields.required("samples")?)?;
+        let dimensions = samples[0].position.len();
         let list = fields.required("targets")?;
         let targets = list.items()?.map(|item| Target::read(&item, dimensions)).collect::<Result<Vec<_>>>()?;
         if targets.is_empty() {
@@ -108,14 +130,15 @@ impl Track {
         self.samples.first().map_or(0, |sample| sample.position.len())
     }
 
-    /// How many samples the approach has: up to and with the last entry into the true target. None where the movement never
+    /// How many samples the approach has: up to and with the last entry into the true target, as far as samples with all their
+    /// coordinates show. None where the movement never
     /// enters it, or begins in it and never leaves.
     #[must_use]
     pub fn approach(&self) -> Option<usize> {
         let target = &self.targets[self.target];
         let mut entry = None;
         let mut inside = false;
-        for (k, sample) in self.samples.iter().enumerate() {
+        for (k, sample) in self.samples.iter().enumerate().filter(|(_, sample)| sample.missing.is_empty()) {
             let now = target.contains(&sample.position);
             if now && !inside {
                 entry = Some(k);
@@ -149,6 +172,55 @@ impl Track {
         entries.push(("destinations".to_owned(), Value::List(destinations.collect())));
         Scenario::from_value(&Value::Map(entries))
     }
+}
+
+/// A text, or a number as one.
+fn name(node: &Node<'_>) -> Result<String> {
+    match node.value() {
+        Value::Number(x) => Ok(number(*x)),
+        _ => node.text().map(str::to_owned),
+    }
+}
+
+/// All samples, at least one; coordinates that are missing repeat those beside them.
+fn read_samples(list: &Node<'_>) -> Result<Vec<Sample>> {
+    let mut samples: Vec<Sample> = Vec::with_capacity(list.items()?.len());
+    for item in list.items()? {
+        let sample = read_sample(&item)?;
+        check_sample(&sample, samples.last(), &item)?;
+        samples.push(sample);
+    }
+    let Some(first) = samples.first() else {
+        return Err(list.error(Code::OutOfRange, "must have at least one sample"));
+    };
+    for axis in 0..first.position.len() {
+        let seen = samples.iter().find(|sample| !sample.missing.contains(&axis));
+        let Some(mut last) = seen.map(|sample| sample.position[axis]) else {
+            return Err(list.error(Code::OutOfRange, &say!("must have a number at least once for axis ", axis)));
+        };
+        for sample in &mut samples {
+            if sample.missing.contains(&axis) {
+                sample.position[axis] = last;
+            }
+            last = sample.position[axis];
+        }
+    }
+    Ok(samples)
+}
+
+fn read_sample(item: &Node<'_>) -> Result<Sample> {
+    let mut numbers = Vec::new();
+    let mut missing = Vec::new();
+    for (i, number) in item.items()?.enumerate() {
+        if i > 0 && *number.value() == Value::Null {
+            missing.push(i - 1);
+            numbers.push(0.0);
+        } else {
+            numbers.push(number.number()?);
+        }
+    }
+    let time = numbers.first().copied().unwrap_or(0.0);
+    Ok(Sample { time, position: numbers.split_off(1.min(numbers.len())), missing })
 }
 
 fn check_sample(sample: &Sample, last: Option<&Sample>, item: &Node<'_>) -> Result<()> {
@@ -241,6 +313,28 @@ mod tests {
     }
 
     #[test]
+    fn numbers_are_names_too() {
+        let track =
+            read(r#"{"id": 7, "user": 2.5, "targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 5, 0]]}"#).unwrap();
+        assert_eq!((track.id.as_str(), track.user.as_str()), ("7", "2.5"));
+    }
+
+    #[test]
+    fn a_missing_coordinate_is_the_one_beside_it_and_no_entry() {
+        let track = read(
+            r#"{"targets": [[100, 0, 20, 10]], "target": 0, "samples": [
+                [0, null, 0], [1, 50, null], [2, 95, null], [3, null, 30], [4, 100, 0], [5, null, null], [6, 101, 0]]}"#,
+        )
+        .unwrap();
+        let positions: Vec<_> = track.samples.iter().map(|sample| sample.position.as_slice()).collect();
+        assert_eq!(positions[..4], [[50.0, 0.0], [50.0, 0.0], [95.0, 0.0], [95.0, 30.0]]);
+        let missing: Vec<_> = track.samples.iter().map(|sample| sample.missing.as_slice()).collect();
+        assert_eq!(missing, [&[0][..], &[1], &[1], &[0], &[], &[0, 1], &[]]);
+        // whether it was inside at 2 is not known, and at 5 it need not have left
+        assert_eq!(track.approach(), Some(5));
+    }
+
+    #[test]
     fn what_is_wrong_is_named() {
         let cases = [
             (r#"{"target": 0, "samples": [[0, 1, 2]]}"#, "targets: missing key \"targets\""),
@@ -270,6 +364,20 @@ mod tests {
             (
                 r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[1, 1, 2], [2, 1, 2, 3]]}"#,
                 "samples[1]: must have as many numbers as the sample before",
+            ),
+            (
+                r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[null, 1, 2]]}"#,
+                "samples[0][0]: must be a number",
+            ),
+            (
+                r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 1, null], [1, 1, null]]}"#,
+                "samples: must have a number at least once for axis 1",
+            ),
+            (r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[null]]}"#, "samples[0][0]: must be a number"),
+            (r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, null]]}"#, "samples[0]: must be [t, x, y]"),
+            (
+                r#"{"user": true, "targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 1, 2]]}"#,
+                "user: must be a string",
             ),
             (r#"{"target": 0, "samples": [[0, 1, 2]], "speed": 1}"#, "speed: unknown key \"speed\""),
         ];

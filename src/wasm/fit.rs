@@ -1,6 +1,7 @@
 //! What `js/study.ts` stands on.
 
 use super::{Result, data};
+use crate::error::Code;
 use crate::study::fit::{self, Options, Progress};
 use crate::study::track::Track;
 use crate::value::{Node, Value};
@@ -35,7 +36,11 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
     if let Some(evaluations) = fields.optional("evaluations") {
         options.evaluations = evaluations.whole(1, 100_000)?;
     }
-    let extra = fields.optional("destination").map_or(Value::Null, |destination| destination.value().clone());
+    let extra = match fields.optional("destination") {
+        None => Value::Null,
+        Some(node) if matches!(node.value(), Value::Map(_)) => node.value().clone(),
+        Some(node) => return Err(node.error(Code::WrongType, "must be an object").into()),
+    };
     let tell = &mut |progress: Progress| listener.tell(progress.share, progress.loss);
     let fitted = fit::fit(&tracks, scenario.value(), &extra, &options, tell)?;
     let constants = fitted.constants.iter().map(|(path, before, after)| {

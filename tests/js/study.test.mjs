@@ -114,6 +114,23 @@ for (const [what, tracks, scenario, options, code, path, message] of cases) {
   test(`refused: ${what}`, () => refuses(fit(tracks, scenario, options), code, path, message));
 }
 
+test("coordinates may be missing, and names numbers", async () => {
+  const named = walks(60).map((track, k) => ({ ...track, id: k, user: k % 4 }));
+  const [whole, numbered] = await Promise.all([fit(walks(60), walk, noise), fit(named, walk, noise)]);
+  assert.deepEqual(numbered, whole, "by the same users");
+  // every fifth sample without one of its coordinates, but for the first and the last
+  const holes = named.map((track) => ({
+    ...track,
+    samples: track.samples.map((sample, k) =>
+      k % 5 === 2 && k < track.samples.length - 1 ? sample.map((x, i) => (i === 1 + (k % 2) ? null : x)) : sample,
+    ),
+  }));
+  assert.ok(holes.some(({ samples }) => samples.flat().includes(null)));
+  const fitted = await fit(holes, walk, noise);
+  assert.equal(fitted.tracks, 60);
+  assert.ok(Math.abs(fitted.constants[0].after - 3) < 0.5, `${fitted.constants[0].after}`);
+});
+
 test("a search that is stopped gives the best so far", async () => {
   let calls = 0;
   const fitted = await fit(walks(60), walk, { ...noise, progress: () => ++calls < 6 });

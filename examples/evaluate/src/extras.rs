@@ -46,7 +46,7 @@ pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -
     let scenario = track.scenario(&template.scenario, &template.extra).map_err(told)?;
     let mut predictor = Predictor::new(&scenario).map_err(told)?;
     for sample in &samples[..approach - 1] {
-        predictor.observe(sample.time, &sample.position).map_err(told)?;
+        sample.observe(&mut predictor).map_err(told)?;
         let Some(remaining) = predictor.remaining() else { continue };
         let true_time = end - sample.time;
         let one_if = |yes: bool| f64::from(u8::from(yes));
@@ -65,7 +65,7 @@ pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -
         let mut predictor = Predictor::new(&scenario).map_err(told)?;
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {
-            predictor.observe(sample.time, &sample.position).map_err(told)?;
+            sample.observe(&mut predictor).map_err(told)?;
             let none = predictor.none();
             let bin = &mut answer.bins[((none * BINS as f64) as usize).min(BINS - 1)];
             bin.count += weight;

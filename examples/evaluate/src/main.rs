@@ -1,9 +1,9 @@
 //! Scores predictors on recorded movements, side by side: `npm run evaluate -- FILE...`.
 //!
 //! A file has one track a line, `{"id", "user", "targets": [[x, y, w, h], ...], "target": k, "samples": [[t, x, y], ...]}`
-//! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`. What is told, on the approach up to
-//! the last entry into the true target: the share of the time with the true target on top, accuracy on the way, mean log
-//! loss, expected calibration error, lead time; with an interval by drawing users.
+//! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`; null for a coordinate that is missing.
+//! What is told, on the approach up to the last entry into the true target: the share of the time with the true target on
+//! top, accuracy on the way, mean log loss, expected calibration error, lead time; with an interval by drawing users.
 
 mod chart;
 mod extras;
@@ -41,7 +41,7 @@ const NOTHING: &str = "nothing to score: too few tracks enter their target";
 #[command(name = "npm run evaluate --")]
 struct Arguments {
     /// Files of tracks, one JSON object a line: {"id"?, "user"?, "targets": [[x, y, width, height], ...] about their centres,
-    /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z].
+    /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z]. A coordinate that is missing is null.
     #[arg(required_unless_present = "habits")]
     files: Vec<PathBuf>,
     /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?}: the scenario without its destinations,

@@ -33,8 +33,68 @@ impl Line {
     }
 }
 
+/// Broken lines: one of each kind, and how many there are of it.
+#[derive(Default)]
+struct Faults {
+    kinds: Vec<Fault>,
+    lines: usize,
+}
+
+struct Fault {
+    kind: String,
+    first: String,
+    lines: usize,
+}
+
+impl Faults {
+    /// How many kinds are told; a file that is none of tracks has as many as lines.
+    const TOLD: usize = 20;
+
+    /// Counts a line, which is told as `first` where its `message` is the first of its kind: numbers and what is in quotation marks
+    /// or brackets differ within a kind.
+    fn add(&mut self, message: &str, first: impl FnOnce() -> String) {
+        self.lines += 1;
+        let kind = kind(message);
+        if let Some(fault) = self.kinds.iter_mut().find(|fault| fault.kind == kind) {
+            fault.lines += 1;
+        } else if self.kinds.len() < Self::TOLD {
+            self.kinds.push(Fault { kind, first: first(), lines: 1 });
+        }
+    }
+
+    /// What is told, in the order of the file.
+    fn told(&self) -> Vec<String> {
+        let more = |lines: usize, what: &str| match lines {
+            0 => String::new(),
+            1 => format!("; 1 more line {what}"),
+            n => format!("; {n} more lines {what}"),
+        };
+        let mut told: Vec<_> =
+            self.kinds.iter().map(|f| format!("{}; skipped{}", f.first, more(f.lines - 1, "like it"))).collect();
+        let others = self.lines - self.kinds.iter().map(|fault| fault.lines).sum::<usize>();
+        if let Some(last) = told.last_mut() {
+            last.push_str(&more(others, "of other kinds"));
+        }
+        told
+    }
+}
+
+/// A message without its numbers and values.
+fn kind(message: &str) -> String {
+    let mut kind = String::new();
+    let mut quoted = false;
+    for character in message.split(", got ").next().unwrap_or_default().chars() {
+        quoted ^= character == '"';
+        let digit = character.is_ascii_digit();
+        if !(quoted && character != '"' || digit && kind.ends_with('0')) {
+            kind.push(if digit { '0' } else { character });
+        }
+    }
+    kind
+}
+
 /// Does `work` for every line in parallel, with a progress bar, and gives what comes of it to `take`, in the order of the file.
-/// A line for which `work` fails is told and skipped; gives how many there were.
+/// A line for which `work` fails is skipped, and told once for all of its kind; gives how many there were.
 pub fn each<T: Send>(
     path: &Path,
     work: impl Fn(&Line) -> Result<Option<T>, String> + Sync,
@@ -43,24 +103,22 @@ pub fn each<T: Send>(
     let size = std::fs::metadata(path).map_err(|error| format!("{}: {error}", path.display()))?.len();
     let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}").map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(size).with_style(style).with_message(name(path));
-    let mut skipped = 0;
+    let mut faults = Faults::default();
     in_batches(path, |lines, bytes| {
         let done: Vec<_> = lines.par_iter().map(&work).collect();
         for (line, done) in lines.iter().zip(done) {
             match done {
                 Ok(Some(done)) => take(done),
                 Ok(None) => {}
-                Err(message) => {
-                    skipped += 1;
-                    bar.suspend(|| eprintln!("{}; skipped", line.broken(path, &message)));
-                }
+                Err(message) => faults.add(&message, || line.broken(path, &message)),
             }
         }
         bar.set_position(bytes);
         Ok(())
     })?;
     bar.finish_and_clear();
-    Ok(skipped)
+    faults.told().iter().for_each(|line| eprintln!("{line}"));
+    Ok(faults.lines)
 }
 
 /// What the tables call a file.
@@ -164,6 +222,55 @@ mod tests {
         assert_eq!(told("targets", line), "tracks.jsonl:3: targets: must have at least one target, got []");
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": []}"#;
         assert_eq!(told("samples", line), "tracks.jsonl:3: samples: must have at least one sample, got []");
+    }
+
+    /// What is told of messages, one a line.
+    fn all_told(messages: &[&str]) -> Vec<String> {
+        let mut faults = Faults::default();
+        for (i, message) in messages.iter().enumerate() {
+            faults.add(message, || format!("{}: {message}", i + 1));
+        }
+        assert_eq!(faults.lines, messages.len());
+        faults.told()
+    }
+
+    #[test]
+    fn one_fault_in_every_line_is_told_once_with_its_count() {
+        let many: Vec<String> = (0..240)
+            .map(|k| format!("samples[{k}][{}]: must be a number, got \"{}\"", k % 3, "x".repeat(k % 7)))
+            .collect();
+        let told = all_told(&many.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(told, ["1: samples[0][0]: must be a number, got \"\"; skipped; 239 more lines like it"]);
+    }
+
+    #[test]
+    fn faults_of_different_kinds_are_told_each() {
+        let [one, two, three] =
+            ["user: must be a string, got true", "target: must be a number, got [0, 1]", "EOF at line 1 column 40"];
+        let told = all_told(&[one, two, one, three, "EOF at line 1 column 7", one]);
+        let expected = [
+            format!("1: {one}; skipped; 2 more lines like it"),
+            format!("2: {two}; skipped"),
+            format!("4: {three}; skipped; 1 more line like it"),
+        ];
+        assert_eq!(told, expected);
+        // a file of anything
+        let any: Vec<String> = (0..100).map(|k| format!("key{}: unknown", "a".repeat(k))).collect();
+        let told = all_told(&any.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(told.len(), Faults::TOLD);
+        assert!(told[Faults::TOLD - 1].ends_with("; skipped; 80 more lines of other kinds"), "{told:?}");
+    }
+
+    #[test]
+    fn names_may_be_numbers_and_coordinates_missing() {
+        let path = file(
+            "missing",
+            &[&GOOD.replace("[0, 9, 9]", "[0, 9, null], [0.5, null, 7]").replace("{", "{\"id\": 3, \"user\": 14, ")],
+        );
+        let mut tracks = Vec::new();
+        assert_eq!(each(&path, |line| line.track(0.0).map(Some), |track| tracks.push(track)), Ok(0));
+        std::fs::remove_file(path).unwrap();
+        assert_eq!((tracks[0].id.as_str(), tracks[0].user.as_str(), tracks[0].approach()), ("3", "14", Some(3)));
     }
 
     #[test]

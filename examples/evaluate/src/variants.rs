@@ -176,7 +176,7 @@ fn resample(samples: &[Sample], interval: f64) -> Vec<Sample> {
             from + way * (to - from) + u * (1.0 - u) * ((1.0 - u) * out - u * into)
         };
         let position = (0..b.position.len()).map(|j| at(j).round()).collect();
-        dense.push(Sample { time, position });
+        dense.push(Sample { time, position, missing: vec![] });
     }
     if dense.last().is_some_and(|sample| sample.time < last.time) {
         dense.push(last.clone());
