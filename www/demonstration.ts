@@ -2,40 +2,38 @@
 import type { Belief, Predictions } from "./belief/predictions.ts";
 import type { Settings } from "./belief/settings.ts";
 import type { Stage } from "./ghost.ts";
-import { History, judge, leader, type Outcome } from "./movement/history.ts";
-import { Segmenter, type Sample } from "./movement/segmenter.ts";
+import { reach, seeded } from "./movement/hand.ts";
+import type { Box } from "./movement/intent.ts";
+import type { Sample } from "./movement/segmenter.ts";
 import { Tally } from "./movement/tally.ts";
-import type { Announcer } from "./view/announcer.ts";
+import { Track } from "./movement/track.ts";
 import type { Believer } from "./view/believer.ts";
 import type { Chart } from "./view/chart.ts";
 import type { Fan } from "./view/fan.ts";
-import { sentence, type Numbers } from "./view/numbers.ts";
+import type { Numbers } from "./view/numbers.ts";
 import type { Screen } from "./view/screen.ts";
+import { prediction, START, verdict } from "./view/sentences.ts";
+import type { Words } from "./view/words.ts";
 
 export interface Views {
   readonly screen: Screen;
   readonly fan: Fan;
   readonly chart: Chart;
-  readonly announcer: Announcer;
+  readonly words: Words;
   readonly believer: Believer;
   readonly numbers: Numbers;
-}
-
-/** One pointer's own story. */
-interface Track {
-  readonly segmenter: Segmenter;
-  history: History;
-  /** When it was last heard of, while there is something to draw. */
-  latest: number | null;
 }
 
 /** The history is no coarser than this, however seldom the page is drawn (seconds). */
 const RESOLUTION = 0.016;
 
-const START = "Move towards an icon.";
+/** Milliseconds for which the light stays after a press, and in which it then fades. */
+const AFTERGLOW = 700;
+const FADE = 400;
 
-/** The ghost is a pointer like any other; real ones have identifiers from 0. */
+/** The ghost and the example are pointers like any other; real ones have identifiers from 0. */
 const GHOST = -1;
+const EXAMPLE = -2;
 
 export class Demonstration {
   readonly #predictions: Predictions;
@@ -43,77 +41,75 @@ export class Demonstration {
   readonly #views: Views;
   readonly #tally = new Tally();
   readonly #tracks = new Map<number, Track>();
+  #boxes: readonly Box[];
   #settings: Settings;
   /** The pointer whose belief is on show. */
   #shown: number | null = null;
   #frame: number | null = null;
-  /** What has been said of the movement on show; undefined: nothing yet. */
-  #announced: number | null | undefined = undefined;
+  /** While the light of a press stays or fades. */
+  #glowing: ReturnType<typeof setTimeout> | null = null;
 
   constructor(predictions: Predictions, settings: Settings, labels: readonly string[], views: Views) {
     this.#predictions = predictions;
     this.#settings = settings;
     this.#labels = labels;
     this.#views = views;
+    this.#boxes = views.screen.measure();
     this.#quieten();
   }
 
   /** Samples of one pointer, oldest first. */
   move(pointerId: number, samples: readonly Sample[]): void {
-    const track = this.#track(pointerId);
-    for (const sample of samples) {
-      const cut = track.segmenter.add(sample);
-      if (cut.fresh) {
-        this.#predictions.begin(pointerId);
-        track.history = new History();
-      }
-      if (cut.samples.length === 0) continue;
-      this.#predictions.observe(pointerId, cut.samples);
-      track.latest = sample.time;
-      this.#shown = pointerId;
-      if (sample.time - (track.history.moments.at(-1)?.time ?? -Infinity) >= RESOLUTION) this.#record(pointerId, track);
-    }
-    if (track.latest !== null) this.#frame ??= requestAnimationFrame(() => this.#draw());
+    if (this.#learn(pointerId, samples)) this.#frame ??= requestAnimationFrame(() => this.#draw());
   }
 
-  /** A pointer pressed at `sample`: on an icon, or with null beside them all. */
-  press(pointerId: number, sample: Sample, index: number | null): void {
+  /** A pointer pressed at `sample`: on an icon, or with null beside them all. What is learnt at the press itself comes too late. */
+  press(pointerId: number, { time }: Sample, index: number | null): void {
     const track = this.#track(pointerId);
-    this.#record(pointerId, track);
-    const { moments } = track.history;
-    track.segmenter.end();
-    track.history = new History();
+    const heard = track.heard;
+    const belief = heard && heard.time < time ? this.#record(pointerId, track) : null;
+    if (belief && this.#shown === pointerId) this.#paint(pointerId, track, belief);
+    const judged = track.press(time, index);
+    if (heard) this.#glow();
     if (index === null) return;
-    this.#quieten();
     this.#views.screen.acknowledge(index);
-    if (moments.length === 0) {
-      this.#views.announcer.say(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
+    if (!judged) {
+      // the second press of a double one
+      if (this.#glowing === null) this.#sayUnpredicted(index);
       return;
     }
-    const outcome = judge(moments, index, sample.time, this.#settings.threshold);
+    const { outcome, moments } = judged;
     this.#views.chart.draw(moments, outcome);
-    this.#report(outcome, pointerId === GHOST);
+    this.#views.numbers.last(outcome, pointerId === GHOST);
+    if (pointerId === GHOST) return;
+    this.#tally.add(outcome);
+    const summary = this.#tally.summary();
+    if (summary) this.#views.numbers.total(summary);
+    const label = this.#labels[index];
+    this.#views.words.show(`${label} pressed.`);
+    this.#views.words.announce(`${label} pressed: ${verdict(outcome, this.#labels)}.`, true);
   }
 
   /** Enter or an assistive tool: there is no movement to judge. */
   pressWithoutPointer(index: number): void {
-    this.#quieten();
+    if (this.#glowing === null) this.#quieten();
     this.#views.screen.acknowledge(index);
-    this.#views.announcer.say(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
-  }
-
-  /** A movement ends here, with or without something to show for it. */
-  end(pointerId: number): void {
-    this.#tracks.get(pointerId)?.segmenter.end();
+    this.#sayUnpredicted(index);
   }
 
   /** A pointer turned away from the screen; it may come back. */
   lose(pointerId: number): void {
-    this.end(pointerId);
+    this.#tracks.get(pointerId)?.forget();
     if (this.#shown !== pointerId) return;
     this.#shown = null;
+    if (this.#glowing !== null) return;
     this.#quieten();
-    this.#views.announcer.say(START);
+    this.#views.words.say(START);
+  }
+
+  /** The page cannot be seen: every movement is over. */
+  hide(): void {
+    for (const pointerId of this.#tracks.keys()) this.lose(pointerId);
   }
 
   /** A pointer is gone for good. */
@@ -128,32 +124,45 @@ export class Demonstration {
     this.#settings = settings;
     if (method === settings.method && noise === settings.noise && points === settings.points) return;
     this.#predictions.configure(settings);
-    for (const track of this.#tracks.values()) {
-      track.segmenter.end();
-      track.history = new History();
-    }
+    for (const track of this.#tracks.values()) track.forget();
     this.#quieten();
   }
 
   /** The icons may have moved. While the page is taken down or not laid out they have no size. */
   place(): void {
     const targets = this.#views.screen.measure();
-    if (targets.every(({ width, height }) => width > 0 && height > 0)) this.#predictions.place(targets);
+    if (!targets.every(({ width, height }) => width > 0 && height > 0)) return;
+    this.#boxes = targets;
+    this.#predictions.place(targets);
+  }
+
+  /** A finished movement of a simulated hand, for a chart that has nothing of its own to show yet. */
+  example(from: number, to: number): void {
+    const [start, end] = [this.#boxes[from], this.#boxes[to]];
+    if (!start || !end) return;
+    const hand = reach(start, end, Math.min(end.width, end.height), seeded(5));
+    const pressed = hand.duration + 0.1;
+    const samples = Array.from({ length: Math.floor(hand.duration * 100) }, (_, step) => ({ time: step / 100, ...hand.at(step / 100) }));
+    this.#learn(EXAMPLE, samples);
+    const judged = this.#track(EXAMPLE).press(pressed, to);
+    this.forget(EXAMPLE);
+    if (!judged) return;
+    this.#views.chart.draw(judged.moments, judged.outcome, true);
+    this.#views.numbers.example(judged.outcome);
   }
 
   /** The stage on which the ghost plays. */
   ghost(): Stage {
     return {
-      targets: () => this.#views.screen.measure(),
+      targets: () => this.#boxes,
+      visible: () => this.#views.screen.isVisible(),
+      enter: () => this.#views.words.announce("A simulated hand shows how it works. Move to take over."),
       move: (sample) => this.move(GHOST, [sample]),
-      press: (index, sample) => {
-        this.move(GHOST, [sample]);
-        this.press(GHOST, sample, index);
-      },
+      press: (index, sample) => this.press(GHOST, sample, index),
       gone: () => {
         this.forget(GHOST);
         this.#quieten();
-        this.#views.announcer.say(START, true);
+        this.#views.words.say(START, true);
       },
     };
   }
@@ -161,66 +170,88 @@ export class Demonstration {
   #track(pointerId: number): Track {
     let track = this.#tracks.get(pointerId);
     if (!track) {
-      track = { segmenter: new Segmenter(), history: new History(), latest: null };
+      track = new Track();
       this.#tracks.set(pointerId, track);
     }
     return track;
   }
 
+  /** Whether there was something to learn. */
+  #learn(pointerId: number, samples: readonly Sample[]): boolean {
+    const track = this.#track(pointerId);
+    let learnt = false;
+    for (const sample of samples) {
+      const cut = track.add(sample, this.#boxes);
+      if (cut.fresh) this.#predictions.begin(pointerId);
+      if (cut.samples.length === 0) continue;
+      this.#predictions.observe(pointerId, cut.samples);
+      this.#shown = pointerId;
+      learnt = true;
+      if (sample.time - (track.movement?.history.moments.at(-1)?.time ?? -Infinity) >= RESOLUTION) this.#record(pointerId, track);
+    }
+    return learnt;
+  }
+
   /** Writes the belief at the latest sample into the movement's history. */
   #record(pointerId: number, track: Track): Belief | null {
-    if (track.latest === null) return null;
-    const belief = this.#predictions.belief(pointerId, track.latest);
-    track.history.add(track.latest, belief.probabilities, belief.none);
+    if (!track.heard) return null;
+    const belief = this.#predictions.belief(pointerId, track.heard.time);
+    track.record(belief.probabilities, belief.none, this.#settings.threshold);
     return belief;
   }
 
   #draw(): void {
     this.#frame = null;
-    const pointerId = this.#shown;
-    const track = pointerId === null ? undefined : this.#tracks.get(pointerId);
-    if (pointerId === null || !track || track.latest === null) return;
-    const now = track.latest;
-    const belief = this.#record(pointerId, track);
-    track.latest = null;
-    if (!belief) return;
-    const best = leader(belief.probabilities);
-    const predicted = (belief.probabilities[best] ?? 0) >= this.#settings.threshold ? best : null;
-    this.#views.screen.paint(belief.probabilities, predicted);
+    const track = this.#shown === null ? undefined : this.#tracks.get(this.#shown);
+    const belief = this.#shown !== null && track ? this.#record(this.#shown, track) : null;
+    if (this.#shown !== null && track && belief) this.#paint(this.#shown, track, belief);
+  }
+
+  #paint(pointerId: number, track: Track, belief: Belief): void {
+    if (!track.movement || !track.heard) return;
+    this.#settle();
+    const { intent, history } = track.movement;
+    this.#views.screen.paint(belief.probabilities, intent.current);
     this.#views.believer.paint(belief);
-    const outlook = this.#predictions.outlook(pointerId, now, this.#views.believer.leading(3));
+    const outlook = this.#predictions.outlook(pointerId, track.heard.time, this.#views.believer.leading(3));
     if (outlook) this.#views.fan.draw(outlook, belief.probabilities);
-    this.#views.chart.draw(track.history.moments, null);
+    this.#views.chart.draw(history.moments, null);
     this.#views.numbers.movement(pointerId === GHOST);
-    if (pointerId === GHOST) this.#views.announcer.say("A simulated hand shows how it works. Move to take over.");
-    else this.#announce(predicted);
+    const label = (index: number | null) => (index === null ? null : (this.#labels[index] ?? null));
+    const sentence = prediction(label(intent.current), label(intent.leaving));
+    if (pointerId === GHOST) this.#views.words.show(`A simulated hand. ${sentence}`);
+    else this.#views.words.say(sentence);
   }
 
-  /** Only what has changed: a screen reader would never come to the end of the percentages. */
-  #announce(predicted: number | null): void {
-    if (predicted === this.#announced) return;
-    this.#announced = predicted;
-    this.#views.announcer.say(predicted === null ? "Not sure yet." : `Heading for ${this.#labels[predicted]}.`);
+  #sayUnpredicted(index: number): void {
+    this.#views.words.say(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
   }
 
-  #report(outcome: Outcome, simulated: boolean): void {
-    const label = this.#labels[outcome.chosen] ?? "";
-    this.#views.numbers.last(outcome, label, simulated);
-    if (simulated) return;
-    this.#tally.add(outcome);
-    const summary = this.#tally.summary();
-    if (summary) this.#views.numbers.total(summary);
-    this.#views.announcer.say(`${label} pressed: ${sentence(outcome)}.`, true);
+  /** The light of a press stays, then fades, unless something moves before. */
+  #glow(): void {
+    this.#settle();
+    this.#glowing = setTimeout(() => {
+      this.#quieten(true);
+      this.#glowing = setTimeout(() => this.#quieten(), FADE);
+    }, AFTERGLOW);
+  }
+
+  /** Nothing is left to stay or to fade, or to be drawn. */
+  #settle(): void {
+    if (this.#frame !== null) cancelAnimationFrame(this.#frame);
+    this.#frame = null;
+    if (this.#glowing !== null) clearTimeout(this.#glowing);
+    this.#glowing = null;
+    this.#views.screen.fade(false);
   }
 
   /** Back to what is believed before anything moves. */
-  #quieten(): void {
-    if (this.#frame !== null) cancelAnimationFrame(this.#frame);
-    this.#frame = null;
-    this.#announced = undefined;
+  #quieten(fading = false): void {
+    this.#settle();
     const prior = this.#predictions.prior();
+    this.#views.screen.fade(fading);
     this.#views.screen.paint(prior.probabilities, null);
     this.#views.believer.paint(prior);
-    this.#views.fan.clear();
+    if (!fading) this.#views.fan.clear();
   }
 }

@@ -8,7 +8,6 @@ import example from "./example.js?raw";
 import { haunt } from "./ghost.ts";
 import { listen } from "./movement/pointers.ts";
 import { listPapers } from "./papers.ts";
-import { Announcer } from "./view/announcer.ts";
 import { Believer } from "./view/believer.ts";
 import { Chart } from "./view/chart.ts";
 import { controls } from "./view/controls.ts";
@@ -16,14 +15,18 @@ import { Fan } from "./view/fan.ts";
 import { Numbers } from "./view/numbers.ts";
 import { Screen } from "./view/screen.ts";
 import { theme } from "./view/theme.ts";
+import { Words } from "./view/words.ts";
 
 /** An element that index.html promises. */
 function part<T extends HTMLElement = HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }
 
+/** The movement that the chart shows before there is another one: across the screen. */
+const EXAMPLE = { from: PLACES.findIndex(({ id }) => id === "fuel"), to: PLACES.findIndex(({ id }) => id === "seats") };
+
 const labels = PLACES.map((place) => place.label);
-const announcer = new Announcer(part("status"));
+const words = new Words(part("status"), part("announcement"));
 const screen = new Screen(part("screen"), part("grid"), PLACES);
 const fan = new Fan(part<HTMLCanvasElement>("fan"));
 const chart = new Chart(part("chart"), labels);
@@ -43,32 +46,25 @@ async function start(): Promise<void> {
     screen,
     fan,
     chart,
-    announcer,
+    words,
     believer: new Believer({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") }, labels),
-    numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }),
+    numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }, labels),
   });
 
   controls(part<HTMLFormElement>("controls"), (settings) => {
     try {
       demonstration.configure(settings);
     } catch (error) {
-      announcer.say(`These settings do not go together: ${reasonOf(error)}`, true);
+      words.say(`These settings do not go together: ${reasonOf(error)}`, true);
     }
   });
   screen.onKeyPress((index) => demonstration.pressWithoutPointer(index));
   listen(() => screen.corner(), {
     move: (pointerId, samples) => demonstration.move(pointerId, samples),
-    down(pointerId, sample, touch, target) {
-      demonstration.move(pointerId, [sample]);
-      if (touch) demonstration.end(pointerId);
-      else demonstration.press(pointerId, sample, screen.iconOf(target));
-    },
-    lift(pointerId, sample) {
-      demonstration.move(pointerId, [sample]);
-      demonstration.press(pointerId, sample, screen.iconAt(sample.x, sample.y));
-      demonstration.forget(pointerId);
-    },
+    press: (pointerId, sample, target) => demonstration.press(pointerId, sample, screen.iconOf(target)),
     lost: (pointerId) => demonstration.lose(pointerId),
+    gone: (pointerId) => demonstration.forget(pointerId),
+    hidden: () => demonstration.hide(),
   });
 
   const sizes = new ResizeObserver(() => {
@@ -78,7 +74,11 @@ async function start(): Promise<void> {
   sizes.observe(part("screen"));
   sizes.observe(part("grid"));
 
-  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) haunt(part("ghost"), demonstration.ghost());
+  demonstration.example(EXAMPLE.from, EXAMPLE.to);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    const svg = (selector: string) => part("ghost").querySelector<SVGElement>(selector) as SVGElement;
+    haunt({ root: part("ghost"), arrow: svg(".arrow"), trail: svg(".trail") }, demonstration.ghost());
+  }
 }
 
 function reasonOf(error: unknown): string {
@@ -86,6 +86,6 @@ function reasonOf(error: unknown): string {
 }
 
 start().catch((error: unknown) => {
-  announcer.say(`The predictor could not start: ${reasonOf(error)}`, true);
+  words.say(`The predictor could not start: ${reasonOf(error)}`, true);
   document.documentElement.dataset["failed"] = "true";
 });

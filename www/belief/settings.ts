@@ -16,11 +16,11 @@ export interface Settings {
   /** The hand's noise is the default times two to this power. */
   readonly noise: number;
   readonly points: number;
-  /** An icon as probable as this counts as selected early. */
+  /** An icon as probable as this is ringed. */
   readonly threshold: number;
 }
 
-export const DEFAULTS: Settings = { method: "pointing", noise: 0, points: 7, threshold: 0.6 };
+export const DEFAULTS: Settings = { method: "pointing", noise: 0, points: 7, threshold: 0.8 };
 
 /** Quadrature points that suit a method. */
 export function pointsOf(method: Method): number {

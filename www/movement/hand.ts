@@ -1,9 +1,5 @@
 /** Simulated hand movements for the ghost pointer. */
-
-export interface Point {
-  readonly x: number;
-  readonly y: number;
-}
+import type { Point } from "./intent.ts";
 
 /** A pseudo-random number generator (mulberry32): the ghost makes the same movements for everybody. */
 export function seeded(seed: number): () => number {
@@ -27,9 +23,12 @@ export interface Hand {
   at(elapsed: number): Point;
 }
 
-/** A minimum-jerk movement (Flash and Hogan 1985) along a slight arc, with a physiological tremor of 8 to 12 Hz. */
-export function reach(from: Point, to: Point, size: number, random: () => number): Hand {
-  const whole = duration(from, to, size);
+/**
+ * A minimum-jerk movement (Flash and Hogan 1985) along a slight arc, with a physiological tremor of 8 to 12 Hz, that takes `pace`
+ * times as long as an unhurried one.
+ */
+export function reach(from: Point, to: Point, size: number, random: () => number, pace = 1): Hand {
+  const whole = pace * duration(from, to, size);
   const arc = (random() - 0.5) * 0.16;
   const waves = [0, 1].map(() => ({ frequency: 8 + 4 * random(), phase: 2 * Math.PI * random() }));
   const tremor = (wave: { frequency: number; phase: number } | undefined, elapsed: number) =>

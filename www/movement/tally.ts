@@ -1,13 +1,13 @@
 /** The numbers over all presses so far, the wrong ones included. */
-import type { Outcome } from "./history.ts";
+import type { Outcome } from "./outcome.ts";
 
 export interface Summary {
   readonly presses: number;
-  /** Seconds. */
+  /** Seconds, over all presses. */
   readonly medianLead: number;
-  /** Shares of all presses: those for which the first early selection was the pressed one, and was not. */
-  readonly earlyRight: number;
-  readonly earlyWrong: number;
+  /** Shares of all presses. */
+  readonly right: number;
+  readonly wrong: number;
 }
 
 export class Tally {
@@ -21,14 +21,8 @@ export class Tally {
   summary(): Summary | null {
     const presses = this.#outcomes.length;
     if (presses === 0) return null;
-    const early = this.#outcomes.filter((outcome) => outcome.early !== null);
-    const right = early.filter((outcome) => outcome.early === outcome.chosen).length;
-    return {
-      presses,
-      medianLead: median(this.#outcomes.map((outcome) => outcome.lead)),
-      earlyRight: right / presses,
-      earlyWrong: (early.length - right) / presses,
-    };
+    const share = (verdict: Outcome["verdict"]) => this.#outcomes.filter((outcome) => outcome.verdict === verdict).length / presses;
+    return { presses, medianLead: median(this.#outcomes.map((outcome) => outcome.lead)), right: share("right"), wrong: share("wrong") };
   }
 }
 

@@ -1,4 +1,5 @@
 /** The sliders of the model; spreads and noise are set on logarithmic scales. */
+import { showValue } from "../view/slider.ts";
 import type { Settings } from "./airliner.ts";
 import { length } from "./length.ts";
 
@@ -25,8 +26,8 @@ export class Controls {
     this.#show();
   }
 
-  #field(name: string): HTMLInputElement | HTMLOutputElement {
-    return this.#form.elements.namedItem(name) as HTMLInputElement | HTMLOutputElement;
+  #field(name: string): HTMLInputElement {
+    return this.#form.elements.namedItem(name) as HTMLInputElement;
   }
 
   #read(): Sliders {
@@ -41,9 +42,9 @@ export class Controls {
 
   #show(): void {
     const { noise, origin, destination, correlation } = this.#read();
-    this.#field("noiseShown").value = String(Number(noise.toPrecision(2)));
-    this.#field("originShown").value = length(origin);
-    this.#field("destinationShown").value = length(destination);
-    this.#field("correlationShown").value = correlation.toFixed(2);
+    showValue(this.#form, "noise", String(Number(noise.toPrecision(2))));
+    showValue(this.#form, "origin", length(origin));
+    showValue(this.#form, "destination", length(destination));
+    showValue(this.#form, "correlation", correlation.toFixed(2));
   }
 }

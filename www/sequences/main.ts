@@ -1,6 +1,7 @@
 /** Puts the page of the sequences together: settings in, flights and predictions out. */
 import { init } from "whither";
 import { theme } from "../view/theme.ts";
+import { Words } from "../view/words.ts";
 import { Airliner, at, PAPER, STEPS, type Prediction, type Settings } from "./airliner.ts";
 import { Controls } from "./controls.ts";
 import { length } from "./length.ts";
@@ -17,8 +18,9 @@ function part<T extends HTMLElement = HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }
 
+const words = new Words(part("status"), part("announcement"));
+
 async function start(): Promise<void> {
-  const status = part("status");
   const map = new FlightMap(part<HTMLCanvasElement>("canvas"));
   const slider = part<HTMLInputElement>("measured");
   const play = part<HTMLButtonElement>("play");
@@ -55,9 +57,8 @@ async function start(): Promise<void> {
     part("markov-error").textContent = length(error(markov, end.x, end.y));
     part("kind").textContent = airliner.kind();
     part("remove").hidden = settings.waypoint === null;
-    if (!playing) {
-      status.textContent = `After ${measured} measurements the landing place is known to ${length(deviation(directed))}; without a destination to ${length(deviation(markov))}.`;
-    }
+    words.show(known(measured, directed, markov));
+    if (!playing) words.announce(known(measured, directed, markov));
   };
 
   const set = (change: Partial<Settings>) => {
@@ -90,6 +91,7 @@ async function start(): Promise<void> {
     if (playing) return stop();
     if (measured >= STEPS - 1) measured = 0;
     play.textContent = "Pause";
+    words.announce("Playing.");
     playing = window.setInterval(() => {
       measured += 1;
       if (measured >= STEPS - 1) stop();
@@ -112,6 +114,12 @@ async function start(): Promise<void> {
   refresh(false);
 }
 
+/** What the numbers say, in a sentence. */
+function known(measured: number, directed: Prediction, markov: Prediction): string {
+  const after = measured === 1 ? "After 1 measurement" : `After ${measured} measurements`;
+  return `${after} the landing place is known to ${length(deviation(directed))}; without a destination to ${length(deviation(markov))}.`;
+}
+
 /** One deviation of the landing place, over both axes. */
 function deviation({ end: { mean, covariance } }: Prediction): number {
   return Math.sqrt(((covariance[0] ?? 0) + (covariance[mean.length + 1] ?? 0)) / 2);
@@ -122,6 +130,6 @@ function error({ end: { mean } }: Prediction, x: number, y: number): number {
 }
 
 start().catch((error: unknown) => {
-  part("status").textContent = `The sequences could not start: ${error instanceof Error ? error.message : String(error)}`;
+  words.say(`The sequences could not start: ${error instanceof Error ? error.message : String(error)}`, true);
   document.documentElement.dataset["failed"] = "true";
 });

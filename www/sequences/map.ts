@@ -1,4 +1,5 @@
 /** The map: flights, the one that is followed, and its prediction, on a canvas. */
+import { colours } from "../view/colours.ts";
 import { ellipse } from "../view/ellipse.ts";
 import type { Airliner, Flight, Place, Prediction } from "./airliner.ts";
 
@@ -27,14 +28,9 @@ export class FlightMap {
     this.#canvas.width = Math.round(clientWidth * devicePixelRatio);
     this.#canvas.height = Math.round(clientHeight * devicePixelRatio);
     const style = getComputedStyle(this.#canvas);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
     const rem = Number.parseFloat(getComputedStyle(document.documentElement).fontSize);
     this.#colours = {
-      line: colour("--line"),
-      muted: colour("--muted"),
-      rest: colour("--rest"),
-      light: colour("--light"),
-      text: colour("--text"),
+      ...colours(this.#canvas.parentElement ?? this.#canvas, ["line", "muted", "rest", "light", "text"]),
       font: `${0.75 * rem}px ${style.fontFamily}`,
     };
   }

@@ -1,7 +1,7 @@
 /** The right-hand side: the leading five, none of them, the time to go. */
 import type { Belief } from "../belief/predictions.ts";
 import { percent, seconds } from "./format.ts";
-import { reorder } from "./order.ts";
+import { ranking } from "./order.ts";
 
 const SHOWN = 5;
 
@@ -39,7 +39,7 @@ export class Believer {
   }
 
   paint({ probabilities, none, timeToGo }: Belief): void {
-    this.#order = reorder(this.#order, probabilities);
+    this.#order = ranking(probabilities);
     this.#rows.forEach(({ element, name, figure }, rank) => {
       const index = this.#order[rank] ?? 0;
       const probability = probabilities[index] ?? 0;

@@ -1,12 +1,18 @@
 /** The last movement: who was how probable when, the press, and how long before it the answer was right. */
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import type { Moment, Outcome } from "../movement/history.ts";
+import type { Moment } from "../movement/history.ts";
+import type { Outcome } from "../movement/outcome.ts";
 import { bandsOf, OWN, stack, type Band } from "./bands.ts";
+import { colours } from "./colours.ts";
 import { milliseconds } from "./format.ts";
 
 /** A movement shorter than this does not fill the width (seconds). */
 const SHORTEST = 0.6;
+
+const BANDS = ["band-1", "band-2", "band-3", "band-4", "band-5"] as const;
+const NAMES = [...BANDS, "text", "muted", "ground", "dim", "on-light", "on-band"] as const;
+const NO_COLOURS = Object.fromEntries(NAMES.map((name) => [name, ""])) as Record<(typeof NAMES)[number], string>;
 
 export class Chart {
   readonly #root: HTMLElement;
@@ -15,24 +21,30 @@ export class Chart {
   #bands: readonly Band[] = [];
   #outcome: Outcome | null = null;
   #start = 0;
+  #rem = 0;
+  #colours = NO_COLOURS;
   #data: uPlot.AlignedData = [[], ...Array.from({ length: OWN + 1 }, () => [])];
 
   constructor(root: HTMLElement, labels: readonly string[]) {
     this.#root = root;
     this.#labels = labels;
     this.#plot = this.#make();
-    new ResizeObserver(() => this.#plot.setSize(this.#size())).observe(root);
+    new ResizeObserver(() => {
+      if (this.#rem === remOf()) this.#plot.setSize(this.#size());
+      else this.restyle();
+    }).observe(root);
   }
 
-  /** After a change of theme: the colours are read again. */
+  /** After a change of theme or of the text's size: colours and sizes are read again. */
   restyle(): void {
     this.#plot.destroy();
     this.#plot = this.#make();
     this.#fitTime();
   }
 
-  /** A movement under way, or with its outcome a finished one. */
-  draw(moments: readonly Moment[], outcome: Outcome | null): void {
+  /** A movement under way, or with its outcome a finished one; an example is fainter. */
+  draw(moments: readonly Moment[], outcome: Outcome | null, example = false): void {
+    this.#root.toggleAttribute("data-example", example);
     this.#start = moments[0]?.time ?? 0;
     this.#outcome = outcome;
     this.#bands = bandsOf(moments, this.#labels, outcome?.chosen ?? moments.at(-1)?.leader ?? 0);
@@ -56,12 +68,12 @@ export class Chart {
   }
 
   #make(): uPlot {
-    const style = getComputedStyle(this.#root);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
-    const rem = Number.parseFloat(getComputedStyle(document.documentElement).fontSize);
+    const rem = remOf();
+    this.#rem = rem;
+    this.#colours = colours(this.#root, NAMES);
     const axis: uPlot.Axis = {
-      stroke: colour("--muted"),
-      font: `${0.75 * rem}px ${style.fontFamily}`,
+      stroke: this.#colours.muted,
+      font: `${0.75 * rem}px ${getComputedStyle(this.#root).fontFamily}`,
       grid: { show: false },
       ticks: { show: false },
       gap: 0.35 * rem,
@@ -77,40 +89,40 @@ export class Chart {
           { ...axis, size: 1.6 * rem, space: 5 * rem, values: (_, splits) => splits.map((split) => `${Number(split.toFixed(2))} s`) },
           { ...axis, size: 3 * rem, splits: () => [0, 0.5, 1], values: (_, splits) => splits.map((split) => `${split * 100}%`) },
         ],
-        series: [{}, ...this.#data.slice(1).map((_, place) => area(colour(`--band-${place + 1}`), colour("--ground")))],
+        series: [{}, ...this.#data.slice(1).map((_, place) => area(this.#colours[BANDS[place] ?? "band-5"], this.#colours.ground))],
         bands: Array.from({ length: OWN }, (_, place) => ({ series: [place + 2, place + 1] as [number, number] })),
-        hooks: { draw: [(plot) => this.#annotate(plot, colour, rem)] },
+        hooks: { draw: [(plot) => this.#annotate(plot)] },
       },
       this.#data,
       this.#root,
     );
   }
 
-  #annotate(plot: uPlot, colour: (name: string) => string, rem: number): void {
+  #annotate(plot: uPlot): void {
     const { ctx: context } = plot;
     const ratio = devicePixelRatio;
-    const size = 0.78 * rem * ratio;
+    const size = 0.78 * this.#rem * ratio;
     context.save();
     context.font = `500 ${size}px ${getComputedStyle(this.#root).fontFamily}`;
     context.textAlign = "center";
     context.textBaseline = "middle";
     const outcome = this.#outcome;
-    if (outcome) this.#showLead(plot, context, outcome, colour, size);
-    this.#nameBands(plot, context, size, colour);
+    if (outcome) this.#showLead(plot, context, outcome, size);
+    this.#nameBands(plot, context, size);
     context.restore();
   }
 
   /** The lead is lit, what came before it is dimmed; a dimension line over it says how long it is. */
-  #showLead(plot: uPlot, context: CanvasRenderingContext2D, outcome: Outcome, colour: (name: string) => string, size: number): void {
+  #showLead(plot: uPlot, context: CanvasRenderingContext2D, outcome: Outcome, size: number): void {
     const { left, top, height } = plot.bbox;
     const pressed = plot.valToPos(outcome.pressed - this.#start, "x", true);
-    const since = outcome.rightSince === null ? pressed : plot.valToPos(outcome.rightSince - this.#start, "x", true);
-    context.fillStyle = colour("--dim");
+    const since = plot.valToPos(outcome.pressed - outcome.lead - this.#start, "x", true);
+    context.fillStyle = this.#colours.dim;
     context.fillRect(left, top, since - left, height);
-    context.strokeStyle = colour("--text");
+    context.strokeStyle = this.#colours.text;
     context.lineWidth = 2 * devicePixelRatio;
     line(context, pressed, top - 1.6 * size, pressed, top + height);
-    if (outcome.rightSince === null) return;
+    if (outcome.lead === 0) return;
     const text = milliseconds(outcome.lead);
     const half = context.measureText(text).width / 2 + size / 2;
     const middle = (since + pressed) / 2;
@@ -120,14 +132,15 @@ export class Chart {
     line(context, since, top - 1.6 * size, since, top + height);
     line(context, since, level, fits ? middle - half : pressed, level);
     if (fits) line(context, middle + half, level, pressed, level);
-    context.fillStyle = colour("--text");
+    context.fillStyle = this.#colours.text;
     context.fillText(text, fits ? middle : since - half, level);
   }
 
   /** A name stands where its area has its weight, if there is room. */
-  #nameBands(plot: uPlot, context: CanvasRenderingContext2D, size: number, colour: (name: string) => string): void {
+  #nameBands(plot: uPlot, context: CanvasRenderingContext2D, size: number): void {
     const times = this.#data[0] as number[];
     const { left } = plot.bbox;
+    const named: { x: number; y: number; half: number }[] = [];
     this.#bands.forEach((band, place) => {
       const at = heaviest(times, band.values);
       const upper = (this.#data[place + 1] as number[])[at] ?? 0;
@@ -138,10 +151,18 @@ export class Chart {
       const right = plot.valToPos(times.at(-1) ?? 0, "x", true);
       if (right - left < 2 * half) return;
       const x = Math.min(right - half, Math.max(left + half, plot.valToPos(times[at] ?? 0, "x", true)));
-      context.fillStyle = colour(place === 0 ? "--on-light" : "--on-band");
-      context.fillText(band.label, x, plot.valToPos((upper + lower) / 2, "y", true));
+      const y = plot.valToPos((upper + lower) / 2, "y", true);
+      if (named.some((other) => Math.abs(other.x - x) < other.half + half && Math.abs(other.y - y) < 1.2 * size)) return;
+      named.push({ x, y, half });
+      context.fillStyle = place === 0 ? this.#colours["on-light"] : this.#colours["on-band"];
+      context.fillText(band.label, x, y);
     });
   }
+}
+
+/** What a rem is now, in px. */
+function remOf(): number {
+  return Number.parseFloat(getComputedStyle(document.documentElement).fontSize);
 }
 
 /** The sample nearest to the middle of an area's weight. */

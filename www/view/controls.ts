@@ -2,6 +2,7 @@
 import type { Method } from "whither";
 import { DEFAULTS, METHODS, pointsOf, type Settings } from "../belief/settings.ts";
 import { percent } from "./format.ts";
+import { showValue } from "./slider.ts";
 
 export function controls(form: HTMLFormElement, changed: (settings: Settings) => void): void {
   const field = (name: string) => form.elements.namedItem(name) as HTMLInputElement | HTMLSelectElement | HTMLOutputElement;
@@ -18,9 +19,9 @@ export function controls(form: HTMLFormElement, changed: (settings: Settings) =>
     threshold: Number(field("threshold").value),
   });
   const show = (settings: Settings) => {
-    field("noiseShown").value = `× ${(2 ** settings.noise).toFixed(2)}`;
-    field("pointsShown").value = String(settings.points);
-    field("thresholdShown").value = percent(settings.threshold);
+    showValue(form, "noise", `× ${(2 ** settings.noise).toFixed(2)}`);
+    showValue(form, "points", String(settings.points));
+    showValue(form, "threshold", percent(settings.threshold));
   };
 
   method.addEventListener("input", () => {

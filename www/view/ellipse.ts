@@ -1,7 +1,21 @@
 /** One deviation of a Gaussian density in the plane. */
 
+export interface Ellipse {
+  readonly long: number;
+  readonly short: number;
+  readonly angle: number;
+}
+
+/** An ellipse longer than this share of the screen's diagonal says no more than "somewhere". */
+const TELLING = 0.09;
+
+/** Whether it tells places on a screen of this size apart. */
+export function isTelling({ long }: Ellipse, width: number, height: number): boolean {
+  return long <= TELLING * Math.hypot(width, height);
+}
+
 /** The principal axes of the position's covariance, one deviation long. */
-export function ellipse(covariance: ArrayLike<number>, states: number): { long: number; short: number; angle: number } {
+export function ellipse(covariance: ArrayLike<number>, states: number): Ellipse {
   const xx = covariance[0] ?? 0;
   const xy = covariance[1] ?? 0;
   const yy = covariance[states + 1] ?? 0;

@@ -1,6 +1,6 @@
-/** What is expected, drawn in light: a path to each of the leading three and the forecast's one-deviation ellipse. */
+/** What is expected, drawn in light: a path to each of the leading three, and the forecast's one-deviation ellipse once it tells something. */
 import type { Outlook } from "../belief/predictions.ts";
-import { ellipse } from "./ellipse.ts";
+import { ellipse, isTelling } from "./ellipse.ts";
 
 export class Fan {
   readonly #canvas: HTMLCanvasElement;
@@ -47,6 +47,7 @@ export class Fan {
       context.stroke();
     }
     const shape = ellipse(outlook.covariance, outlook.states);
+    if (!isTelling(shape, this.#canvas.clientWidth, this.#canvas.clientHeight)) return;
     context.beginPath();
     context.ellipse(outlook.mean[0] ?? 0, outlook.mean[1] ?? 0, shape.long, shape.short, shape.angle, 0, 2 * Math.PI);
     context.globalAlpha = 0.07;

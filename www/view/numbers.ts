@@ -1,7 +1,8 @@
 /** What the last press says, and all presses together. */
-import type { Outcome } from "../movement/history.ts";
+import type { Outcome } from "../movement/outcome.ts";
 import type { Summary } from "../movement/tally.ts";
 import { milliseconds, percent } from "./format.ts";
+import { verdict } from "./sentences.ts";
 
 export interface NumbersParts {
   readonly lead: HTMLElement;
@@ -13,35 +14,42 @@ export interface NumbersParts {
 
 export class Numbers {
   readonly #parts: NumbersParts;
+  readonly #labels: readonly string[];
   #under = "";
 
-  constructor(parts: NumbersParts) {
+  constructor(parts: NumbersParts, labels: readonly string[]) {
     this.#parts = parts;
+    this.#labels = labels;
+  }
+
+  /** A movement that nobody made yet. */
+  example(outcome: Outcome): void {
+    this.#write(`An example, until you move. ${this.#told(outcome)}`);
   }
 
   /** A movement is under way. */
   movement(simulated: boolean): void {
-    this.#say(simulated ? "Simulated hand, under way" : "Under way");
+    this.#write(simulated ? "Simulated hand, under way" : "Under way");
   }
 
-  last(outcome: Outcome, label: string, simulated: boolean): void {
-    this.#say(`${simulated ? "Simulated hand. " : ""}${label}: ${sentence(outcome)}`);
+  last(outcome: Outcome, simulated: boolean): void {
+    this.#write(`${simulated ? "Simulated hand. " : ""}${this.#told(outcome)}`);
   }
 
-  total({ presses, medianLead, earlyRight, earlyWrong }: Summary): void {
+  total({ presses, medianLead, right, wrong }: Summary): void {
     this.#parts.median.textContent = milliseconds(medianLead);
-    this.#parts.right.textContent = percent(earlyRight);
-    this.#parts.wrong.textContent = percent(earlyWrong);
+    this.#parts.right.textContent = percent(right);
+    this.#parts.wrong.textContent = percent(wrong);
     this.#parts.presses.textContent = presses === 1 ? "Over 1 press" : `Over ${presses} presses`;
   }
 
-  #say(text: string): void {
+  #told(outcome: Outcome): string {
+    return `${this.#labels[outcome.chosen] ?? ""}: ${verdict(outcome, this.#labels)}`;
+  }
+
+  #write(text: string): void {
     if (text === this.#under) return;
     this.#under = text;
     this.#parts.lead.textContent = text;
   }
-}
-
-export function sentence({ rightSince, lead }: Outcome): string {
-  return rightSince === null ? "not on top before the press" : `right ${milliseconds(lead)} before the press`;
 }

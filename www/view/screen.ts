@@ -55,12 +55,6 @@ export class Screen {
     return index < 0 ? null : index;
   }
 
-  /** The icon at a place, in px from the screen's corner, or null. */
-  iconAt(x: number, y: number): number | null {
-    const corner = this.corner();
-    return this.iconOf(document.elementFromPoint(x + corner.x, y + corner.y));
-  }
-
   paint(probabilities: ArrayLike<number>, predicted: number | null): void {
     this.#buttons.forEach((each, index) => {
       const probability = probabilities[index] ?? 0;
@@ -74,6 +68,17 @@ export class Screen {
     if (this.#predicted !== null) this.#buttons[this.#predicted]?.removeAttribute("data-predicted");
     if (predicted !== null) this.#buttons[predicted]?.setAttribute("data-predicted", "true");
     this.#predicted = predicted;
+  }
+
+  /** While what was lit fades. */
+  fade(fading: boolean): void {
+    this.#root.toggleAttribute("data-fading", fading);
+  }
+
+  /** Whether some of it is in the viewport. */
+  isVisible(): boolean {
+    const { top, bottom } = this.#root.getBoundingClientRect();
+    return bottom > 0 && top < innerHeight;
   }
 
   /** A press is seen to be taken. */

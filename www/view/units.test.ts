@@ -1,10 +1,13 @@
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { bandsOf, stack } from "./bands.ts";
-import { ellipse } from "./ellipse.ts";
+import { ellipse, isTelling } from "./ellipse.ts";
 import { milliseconds, percent, seconds } from "./format.ts";
-import { reorder } from "./order.ts";
+import { ranking } from "./order.ts";
+import { prediction } from "./sentences.ts";
+import { trail } from "./trail.ts";
 import { destinationOf } from "./walk.ts";
+import { Words } from "./words.ts";
 
 describe("format", () => {
   it("never calls the nearly certain certain, nor the possible impossible", () => {
@@ -18,12 +21,49 @@ describe("format", () => {
 });
 
 describe("order of the rows", () => {
-  it("puts the most probable first", () => {
-    assert.deepEqual(reorder([0, 1, 2], [0.1, 0.2, 0.7]), [2, 1, 0]);
+  it("is that of their numbers, however near they are", () => {
+    assert.deepEqual(ranking([0.1, 0.2, 0.7]), [2, 1, 0]);
+    assert.deepEqual(ranking(Float64Array.of(0.3, 0.301, 0.3005)), [1, 2, 0]);
   });
 
-  it("leaves near-equals where they were", () => {
-    assert.deepEqual(reorder([2, 0, 1], [0.301, 0.3, 0.3]), [2, 0, 1]);
+  it("is the reading order where they are equal", () => {
+    assert.deepEqual(ranking([0.2, 0.3, 0.2, 0.3]), [1, 3, 0, 2]);
+  });
+});
+
+describe("sentences", () => {
+  it("name what is ringed, and what is being left where that is as probable", () => {
+    assert.equal(prediction("Seats", null), "Heading for Seats.");
+    assert.equal(prediction(null, "Fuel"), "Leaving Fuel.");
+    assert.equal(prediction(null, null), "Not sure yet.");
+  });
+});
+
+describe("words", () => {
+  it("are seen at once, and announced seldom, the last of several", async (test) => {
+    test.mock.timers.enable({ apis: ["setTimeout"] });
+    let now = 0;
+    test.mock.method(performance, "now", () => now);
+    const [visible, live] = [{ textContent: "" }, { textContent: "" }];
+    const words = new Words(visible as HTMLElement, live as HTMLElement);
+    words.say("one");
+    assert.deepEqual([visible.textContent, live.textContent], ["one", "one"]);
+    words.say("two");
+    words.say("three");
+    assert.deepEqual([visible.textContent, live.textContent], ["three", "one"]);
+    now = 700;
+    test.mock.timers.tick(700);
+    assert.equal(live.textContent, "three");
+    words.say("four", true);
+    words.show("five");
+    assert.deepEqual([visible.textContent, live.textContent], ["five", "four"]);
+  });
+});
+
+describe("trail", () => {
+  it("is widest at the newest place and ends in a point", () => {
+    assert.equal(trail([{ x: 0, y: 0 }, { x: 10, y: 0 }, { x: 20, y: 0 }], 8), "M0 0L10 2L20 4L20 -4L10 -2L0 0Z");
+    assert.equal(trail([{ x: 3, y: 3 }], 8), "");
   });
 });
 
@@ -66,5 +106,10 @@ describe("ellipse", () => {
     assert.ok(Math.abs(long - Math.sqrt(8)) < 1e-12);
     assert.ok(Math.abs(short - Math.sqrt(2)) < 1e-12);
     assert.ok(Math.abs(angle - Math.PI / 4) < 1e-12);
+  });
+
+  it("waits until it tells places apart", () => {
+    assert.equal(isTelling({ long: 300, short: 20, angle: 0 }, 800, 430), false);
+    assert.equal(isTelling({ long: 60, short: 20, angle: 0 }, 800, 430), true);
   });
 });

@@ -1,0 +1,20 @@
+/** What the page says: one sentence for what is predicted, one for what a press showed. */
+import type { Outcome } from "../movement/outcome.ts";
+import { milliseconds } from "./format.ts";
+
+export const START = "Move towards an icon.";
+
+/** What the ring shows, in words. */
+export function prediction(ringed: string | null, leaving: string | null): string {
+  if (ringed !== null) return `Heading for ${ringed}.`;
+  return leaving === null ? "Not sure yet." : `Leaving ${leaving}.`;
+}
+
+/** One press, from the same outcome as the numbers over all presses. */
+export function verdict(outcome: Outcome, labels: readonly string[]): string {
+  const early = `right ${milliseconds(outcome.lead)} before the press`;
+  if (outcome.verdict === "right") return early;
+  if (outcome.mistaken === null) return "not sure before the press";
+  const expected = labels[outcome.mistaken] ?? "";
+  return outcome.lead > 0 ? `wrong at first (${expected}), ${early}` : `wrong, it expected ${expected}`;
+}
