@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { movement } from "./hand.mjs";
-import { launch, middles, mouse, open, drag, read, serve } from "./support.mjs";
+import { head, launch, middles, mouse, open, read, REST, serve } from "./support.mjs";
 
 /** Shares of the screen's width and height; some lie outside of it. */
 const STARTS = [
@@ -40,7 +40,7 @@ describe("pointing", () => {
       for (const icon of icons) {
         count += 1;
         await hand.play([[0, from.x, from.y]]);
-        await hand.rest(0.15);
+        await hand.rest(REST);
         await hand.play(movement(from, icon, Math.min(icon.width, icon.height), { seed: count, share: 0.8 }));
         const shown = await read(page);
         assert.ok(Math.abs(shown.sum - 1) < 1e-4, `probabilities and none sum to ${shown.sum}`);
@@ -52,54 +52,118 @@ describe("pointing", () => {
     assert.deepEqual(sins, []);
   });
 
-  it("marks the most probable icon above the threshold, and says so in words", async () => {
+  it("rings the icon that it is sure of, and says so at once", async () => {
     const { page } = opened;
     const hand = await mouse(page);
-    const icons = await middles(page);
-    const from = icons.find((icon) => icon.id === "fuel");
-    const to = icons.find((icon) => icon.id === "seats");
-    await hand.play([[0, from.x, from.y]]);
-    await hand.rest(0.3);
-    await hand.play(movement(from, to, to.width, { seed: 5 }));
-    const shown = await read(page);
-    assert.ok(shown.top.probability >= 0.6, `${shown.top.id} ${shown.top.probability}`);
+    const { shown } = await head(page, hand, "fuel", "seats", { seed: 5 });
+    assert.ok(shown.top.probability >= 0.8, `${shown.top.id} ${shown.top.probability}`);
     assert.deepEqual(shown.icons.filter((icon) => icon.predicted).map((icon) => icon.id), ["seats"]);
-    await page.waitForFunction(() => document.querySelector("#status").textContent === "Heading for Seats.");
+    assert.equal(shown.status, "Heading for Seats.");
+    await page.waitForFunction(() => document.querySelector("#announcement").textContent === "Heading for Seats.");
   });
 
-  it("reports how much earlier than the press it was right", async () => {
+  it("tells one outcome of a press, and the numbers are those of the sentence", async () => {
     const { page } = opened;
     const hand = await mouse(page);
-    const icons = await middles(page);
-    const seats = icons.find((icon) => icon.id === "seats");
-    await hand.press(seats);
-    const lead = await page.locator("#lead").textContent();
+    await hand.press((await middles(page)).find((icon) => icon.id === "seats"));
+    const { lead, median, right, wrong, status, announced } = await outcome(page);
     const [, early] = /^Seats: right (\d+) ms before the press$/.exec(lead) ?? assert.fail(lead);
     assert.ok(Number(early) > 150, lead);
-    assert.equal(await page.locator("#median").textContent(), `${early} ms`);
-    assert.equal(await page.locator("#early-right").textContent(), "100%");
-    assert.equal(await page.locator("#early-wrong").textContent(), "0%");
-    assert.equal((await read(page)).status, `Seats pressed: right ${early} ms before the press.`);
+    assert.deepEqual([median, right, wrong], [`${early} ms`, "100%", "0%"]);
+    assert.equal(status, "Seats pressed.");
+    assert.equal(announced, `Seats pressed: right ${early} ms before the press.`);
   });
 
-  it("counts a press on another icon than the one that it had selected early", async () => {
+  it("counts a press on another icon than the one that it had ringed", async () => {
     const { page, sins } = opened;
     const hand = await mouse(page);
     const icons = await middles(page);
     const from = icons.find((icon) => icon.id === "seats");
     const toward = icons.find((icon) => icon.id === "fuel");
     const pressed = icons.find((icon) => icon.id === "camera");
-    await hand.rest(0.2);
+    await hand.rest(REST);
     const there = movement(from, toward, toward.width, { seed: 6, share: 0.85 });
     const [turn, x, y] = there.at(-1);
     const back = movement({ x, y }, pressed, pressed.width, { seed: 7 });
     await hand.play([...there, ...back.slice(1).map(([time, ...place]) => [turn + time, ...place])]);
     await hand.press(pressed);
-    assert.match(await page.locator("#lead").textContent(), /^Camera: right \d+ ms before the press$/);
-    assert.equal(await page.locator("#early-right").textContent(), "50%");
-    assert.equal(await page.locator("#early-wrong").textContent(), "50%");
-    assert.equal(await page.locator("#presses").textContent(), "Over 2 presses");
+    const { lead, right, wrong, presses } = await outcome(page);
+    assert.match(lead, /^Camera: wrong at first \(\w+\), right \d+ ms before the press$/);
+    assert.deepEqual([right, wrong, presses], ["50%", "50%", "Over 2 presses"]);
     assert.deepEqual(sins, []);
+  });
+
+  for (const [name, rest] of [["a hover of 120 ms", 0.12], ["a rest", 0.5]]) {
+    it(`does not lose a right prediction to ${name} before the press, nor to a hand that settles`, async () => {
+      const { page, close } = await open(browser, host.url);
+      const hand = await mouse(page);
+      const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
+      await hand.rest(rest);
+      await hand.play([0, 8, 16, 8].map((aside, step) => [step / 50, end.x + aside, end.y - aside]));
+      await hand.press(end);
+      const { lead, median, right } = await outcome(page);
+      const [, early] = /^Seats: right (\d+) ms before the press$/.exec(lead) ?? assert.fail(lead);
+      assert.ok(Number(early) >= 1000 * rest, lead);
+      assert.deepEqual([median, right], [`${early} ms`, "100%"]);
+      await close();
+    });
+  }
+
+  it("shows in every frame a sentence that fits the ring, and rows in the order of their numbers", async () => {
+    const { page, close } = await open(browser, host.url);
+    await page.evaluate(() => {
+      window.frames = [];
+      const number = (text) => ({ "<1%": 0.5, ">99%": 99.5 })[text] ?? Number.parseInt(text, 10);
+      const watch = () => {
+        const ringed = [...document.querySelectorAll("[data-predicted=true] .label")].map((label) => label.textContent);
+        const rows = [...document.querySelectorAll(".row-figure")].map((figure) => number(figure.textContent));
+        window.frames.push({ ringed, rows, status: document.querySelector("#status").textContent });
+        requestAnimationFrame(watch);
+      };
+      requestAnimationFrame(watch);
+    });
+    const hand = await mouse(page);
+    for (const [index, [from, to]] of [["fuel", "seats"], ["help", "phone"], ["navigation", "weather"]].entries()) {
+      await head(page, hand, from, to, { seed: index });
+    }
+    const frames = (await page.evaluate(() => window.frames)).filter(({ status }) => status !== "Move towards an icon.");
+    await close();
+    assert.ok(frames.some(({ ringed }) => ringed.length === 1) && frames.some(({ status }) => status === "Not sure yet."));
+    for (const { ringed, rows, status } of frames) {
+      if (ringed.length === 0) assert.match(status, /^Not sure yet\.$|^Leaving \w+\.$/);
+      else assert.equal(status, `Heading for ${ringed.join()}.`);
+      assert.deepEqual(rows, rows.toSorted((a, b) => b - a));
+    }
+  });
+
+  it("keeps the light for most of a second after a press, then lets it fade", async () => {
+    const { page, close } = await open(browser, host.url);
+    const hand = await mouse(page);
+    const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
+    const glow = page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          const seats = document.querySelector("[data-destination=seats]");
+          const screen = document.querySelector("#screen");
+          const light = () => Number(getComputedStyle(seats).getPropertyValue("--light-share"));
+          let pressed, light0, opened, dimming = 0;
+          addEventListener("pointerdown", () => (pressed = performance.now()), { capture: true });
+          const watch = (now) => {
+            if (pressed && light0 === undefined) light0 = light();
+            if (pressed && opened === undefined && seats.dataset.predicted !== "true") opened = now - pressed;
+            if (opened !== undefined && screen.hasAttribute("data-fading") && light() < light0 && light() > 0.1) dimming += 1;
+            if (opened !== undefined && !screen.hasAttribute("data-fading")) resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
+            else requestAnimationFrame(watch);
+          };
+          requestAnimationFrame(watch);
+        }),
+    );
+    await hand.press(end);
+    const { light0, opened: ring, dark, dimming, light } = await glow;
+    await close();
+    assert.ok(light0 > 0.8, `lit to ${light0} at the press`);
+    assert.ok(ring >= 600, `the ring opened after ${ring} ms`);
+    assert.ok(dark > ring + 200 && dimming >= 2 && light < 0.1, `it faded until ${dark} ms, over ${dimming} frames, to ${light}`);
   });
 
   it("learns from every sample once, also when the browser hands over many at a time", async () => {
@@ -117,7 +181,7 @@ describe("pointing", () => {
     const most = [];
     for (const busy of [false, true]) {
       await hand.play([[0, from.x, from.y]]);
-      await hand.rest(0.2);
+      await hand.rest(REST);
       // A page that has no time for events finds them all in one afterwards.
       const work = page.evaluate((until) => {
         while (Date.now() < until);
@@ -141,16 +205,16 @@ describe("pointing", () => {
     const via = icons.find((icon) => icon.id === "apps");
     const to = icons.find((icon) => icon.id === "radio");
     await hand.play([[0, from.x, from.y]]);
-    await hand.rest(0.2);
+    await hand.rest(REST);
     await hand.play(movement(from, via, via.width, { seed: 8 }));
-    await hand.rest(0.2);
+    await hand.rest(REST);
     const back = movement(via, to, to.width, { seed: 9, share: 0.8 });
     await hand.play(back);
     const afterDetour = await read(page);
     await hand.play([[0, 640, 780]]);
-    await hand.rest(0.2);
+    await hand.rest(REST);
     await hand.play([[0, via.x, via.y]]);
-    await hand.rest(0.2);
+    await hand.rest(REST);
     await hand.play(back);
     const direct = await read(page);
     assert.equal(afterDetour.top.id, "radio");
@@ -158,22 +222,13 @@ describe("pointing", () => {
       assert.ok(Math.abs(icon.probability - afterDetour.icons[index].probability) < 0.02, icon.id);
     }
   });
-
-  it("predicts a finger that is dragged across a phone, and takes its lifting for the press", async () => {
-    const phone = await open(browser, host.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
-    const icons = await middles(phone.page);
-    const from = icons.find((icon) => icon.id === "fuel");
-    const to = icons.find((icon) => icon.id === "navigation");
-    const samples = movement(from, to, to.height, { seed: 3, rate: 60 });
-    let shown;
-    await drag(phone.page, samples, async () => {
-      shown = await read(phone.page);
-    });
-    assert.equal(shown.top.id, "navigation");
-    assert.ok(Math.abs(shown.sum - 1) < 1e-4);
-    assert.equal(await phone.page.evaluate(() => scrollY), 0);
-    assert.match(await phone.page.locator("#lead").textContent(), /^Navigation: right \d+ ms before the press$/);
-    assert.deepEqual(phone.sins, []);
-    await phone.close();
-  });
 });
+
+/** What the page says of the last press and of all. */
+function outcome(page) {
+  return page.evaluate(() => {
+    const text = (id) => document.getElementById(id).textContent;
+    const [lead, median, right, wrong, presses] = ["lead", "median", "early-right", "early-wrong", "presses"].map(text);
+    return { lead, median, right, wrong, presses, status: text("status"), announced: text("announcement") };
+  });
+}

@@ -5,7 +5,7 @@ import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
-import { launch, middles, mouse, open, read, serve } from "./support.mjs";
+import { launch, middles, mouse, open, read, REST, serve } from "./support.mjs";
 
 const DATA = process.env.RECORDINGS ?? "";
 const SETS = [
@@ -42,7 +42,7 @@ describe("recorded hands", { skip }, () => {
         const start = samples[0];
         const later = samples.findIndex(([time]) => time > 0.75 * samples.at(-1)[0]);
         await hand.play([[0, start[1], start[2]]]);
-        await hand.rest(0.15);
+        await hand.rest(REST);
         const clock = await hand.play(samples.slice(0, later));
         if ((await read(page)).top.id === icon.id) rightAtThreeQuarters += 1;
         await hand.play(samples.slice(later), clock);

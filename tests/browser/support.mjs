@@ -1,6 +1,7 @@
 // What the browser tests share: the built page on a static host, and hands that move Chromium's real pointer.
 import { serve as serveFolder } from "../../scripts/serve.mjs";
 import { folder } from "../../scripts/build-demo.mjs";
+import { movement } from "./hand.mjs";
 
 export { launch } from "../../scripts/chromium.mjs";
 
@@ -17,8 +18,9 @@ const SCREEN = { path: "", ready: () => document.querySelector("#none").textCont
 
 /** A page that is ready, with everything that it must not do collected in `sins`. */
 export async function open(browser, url, options = {}, { path, ready } = SCREEN) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...options });
   const page = await context.newPage();
+  await page.addInitScript(watchShifts);
   const sins = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type())) sins.push(`console: ${message.text()}`);
@@ -35,6 +37,29 @@ export async function open(browser, url, options = {}, { path, ready } = SCREEN)
   await page.waitForFunction(ready);
   return { page, sins, close: () => context.close() };
 }
+
+/** Runs in the page: adds up what moves that should not. */
+function watchShifts() {
+  window.shifts = [];
+  new PerformanceObserver((list) => {
+    for (const { value, sources } of list.getEntries()) {
+      window.shifts.push({ value, sources: sources.map(({ node }) => node?.id || node?.className || node?.nodeName) });
+    }
+  }).observe({ type: "layout-shift", buffered: true });
+}
+
+/** Every layout shift so far. */
+export async function shifts(page) {
+  await nextFrame(page);
+  return page.evaluate(() => window.shifts);
+}
+
+export function nextFrame(page) {
+  return page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
+
+/** The seconds for which a pointer has to stay before what follows is another movement. */
+export const REST = 0.35;
 
 /** What the page shows, after the next frame. */
 export function read(page) {
@@ -93,6 +118,16 @@ export async function mouse(page) {
       await send("mouseReleased", time, point, button);
     },
   };
+}
+
+/** Moves the mouse from one icon to another and gives what is then shown. */
+export async function head(page, hand, from, to, options) {
+  const icons = await middles(page);
+  const [start, end] = [from, to].map((id) => icons.find((icon) => icon.id === id));
+  await hand.play([[0, start.x, start.y]]);
+  await hand.rest(REST);
+  await hand.play(movement(start, end, Math.min(end.width, end.height), options));
+  return { shown: await read(page), end };
 }
 
 /** A finger on the glass, dragged through `[seconds, x, y]`, first to last. */

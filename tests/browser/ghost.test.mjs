@@ -1,0 +1,96 @@
+// The ghost, on a clock that the test moves.
+import assert from "node:assert/strict";
+import { after, before, describe, it } from "node:test";
+import { launch, serve } from "./support.mjs";
+
+describe("ghost", () => {
+  let host, browser;
+
+  before(async () => {
+    host = await serve();
+    browser = await launch();
+  });
+  after(async () => {
+    await browser.close();
+    await host.close();
+  });
+
+  /** A page whose clock stands still unless `page.clock.runFor` moves it. */
+  async function fresh(options) {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+    const page = await context.newPage();
+    await page.clock.install({ time: 0 });
+    await page.clock.pauseAt(1000);
+    await page.goto(host.url);
+    await page.waitForFunction(() => document.querySelector("#none").textContent !== "–", null, { polling: 50 });
+    return { page, seen: () => page.locator("#ghost").isVisible(), close: () => context.close() };
+  }
+
+  it("comes after a second, goes at the first input, and comes back when nobody has moved for a while", async () => {
+    const { page, seen, close } = await fresh();
+    await page.clock.runFor(700);
+    assert.equal(await seen(), false);
+    await page.clock.runFor(700);
+    assert.equal(await seen(), true);
+    await page.clock.runFor(4000);
+    assert.match(await page.locator("#lead").textContent(), /^Simulated hand\b/);
+    assert.match(await page.locator("#status").textContent(), /^A simulated hand\./);
+    assert.equal(await page.locator("#median").textContent(), "–");
+    await page.mouse.move(600, 300);
+    assert.equal(await seen(), false);
+    await page.clock.runFor(10_000);
+    assert.equal(await seen(), false);
+    await page.clock.runFor(8000);
+    assert.equal(await seen(), true);
+    await close();
+  });
+
+  for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
+    it(`lights something most of the time, moves slowly, and hides no icon that it presses, at ${viewport.width} px`, async () => {
+      const { page, close } = await fresh({ viewport });
+      await page.clock.runFor(1200);
+      await page.evaluate(() => {
+        window.seen = { frames: 0, lit: 0, ringed: 0, hidden: [], fastest: 0, trails: 0, presses: 0 };
+        const arrow = document.querySelector("#ghost .arrow");
+        let last = null;
+        const watch = (now) => {
+          const icons = [...document.querySelectorAll("button[data-destination]")];
+          const { seen } = window;
+          seen.frames += 1;
+          if (icons.some((icon) => Number(icon.style.getPropertyValue("--light-share")) > 0.3)) seen.lit += 1;
+          if (icons.some((icon) => icon.dataset.predicted === "true")) seen.ringed += 1;
+          if (document.querySelector("#ghost .trail").getAttribute("d")) seen.trails += 1;
+          const at = arrow.getBoundingClientRect();
+          if (last) seen.fastest = Math.max(seen.fastest, (1000 * Math.hypot(at.left - last.left, at.top - last.top)) / (now - last.now));
+          last = { now, left: at.left, top: at.top };
+          requestAnimationFrame(watch);
+        };
+        requestAnimationFrame(watch);
+        new MutationObserver((records) => {
+          const icon = records.find(({ target }) => target.hasAttribute("data-pressed"))?.target;
+          if (!icon) return;
+          window.seen.presses += 1;
+          const [at, glyph] = [arrow, icon.querySelector(".glyph")].map((element) => element.getBoundingClientRect());
+          if (at.left < glyph.right && at.right > glyph.left && at.top < glyph.bottom && at.bottom > glyph.top) window.seen.hidden.push(icon.dataset.destination);
+        }).observe(document.querySelector("#grid"), { subtree: true, attributeFilter: ["data-pressed"] });
+      });
+      await page.clock.runFor(15_000);
+      const { frames, lit, ringed, hidden, fastest, trails, presses } = await page.evaluate(() => window.seen);
+      await close();
+      assert.ok(frames > 500, `${frames} frames`);
+      assert.ok(lit > 0.6 * frames, `lit in ${lit} of ${frames} frames`);
+      assert.ok(ringed > 0.3 * frames, `ringed in ${ringed} of ${frames} frames`);
+      assert.ok(trails > 0.3 * frames, `a trail in ${trails} of ${frames} frames`);
+      assert.ok(fastest < 1700, `${Math.round(fastest)} px/s`);
+      assert.ok(presses >= 3, `${presses} presses`);
+      assert.deepEqual(hidden, []);
+    });
+  }
+
+  it("stays away where motion is to be reduced", async () => {
+    const { page, seen, close } = await fresh({ reducedMotion: "reduce" });
+    await page.clock.runFor(30_000);
+    assert.equal(await seen(), false);
+    await close();
+  });
+});
