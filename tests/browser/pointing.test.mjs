@@ -140,26 +140,25 @@ describe("pointing", () => {
     const { page, close } = await open(browser, host.url);
     const hand = await mouse(page);
     const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
-    const glow = page.evaluate(
-      () =>
-        new Promise((resolve) => {
-          const seats = document.querySelector("[data-destination=seats]");
-          const screen = document.querySelector("#screen");
-          const light = () => Number(getComputedStyle(seats).getPropertyValue("--light-share"));
-          let pressed, light0, opened, dimming = 0;
-          addEventListener("pointerdown", () => (pressed = performance.now()), { capture: true });
-          const watch = (now) => {
-            if (pressed && light0 === undefined) light0 = light();
-            if (pressed && opened === undefined && seats.dataset.predicted !== "true") opened = now - pressed;
-            if (opened !== undefined && screen.hasAttribute("data-fading") && light() < light0 && light() > 0.1) dimming += 1;
-            if (opened !== undefined && !screen.hasAttribute("data-fading")) resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
-            else requestAnimationFrame(watch);
-          };
-          requestAnimationFrame(watch);
-        }),
-    );
+    await page.evaluate(() => {
+      window.glow = new Promise((resolve) => {
+        const seats = document.querySelector("[data-destination=seats]");
+        const screen = document.querySelector("#screen");
+        const light = () => Number(getComputedStyle(seats).getPropertyValue("--light-share"));
+        let [pressed, light0, opened, dimming] = [null, null, null, 0];
+        addEventListener("pointerdown", () => (pressed = performance.now()), { capture: true });
+        const watch = (now) => {
+          if (pressed !== null) light0 ??= light();
+          if (pressed !== null && seats.dataset.predicted !== "true") opened ??= now - pressed;
+          if (opened !== null && screen.hasAttribute("data-fading") && light() < light0 && light() > 0.1) dimming += 1;
+          if (opened !== null && !screen.hasAttribute("data-fading")) resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
+          else requestAnimationFrame(watch);
+        };
+        requestAnimationFrame(watch);
+      });
+    });
     await hand.press(end);
-    const { light0, opened: ring, dark, dimming, light } = await glow;
+    const { light0, opened: ring, dark, dimming, light } = await page.evaluate(() => window.glow);
     await close();
     assert.ok(light0 > 0.8, `lit to ${light0} at the press`);
     assert.ok(ring >= 600, `the ring opened after ${ring} ms`);

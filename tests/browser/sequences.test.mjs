@@ -55,6 +55,7 @@ describe("the page of the sequences", () => {
     assert.ok(metres(found["markov-deviation"]) > 1000, found["markov-deviation"]);
     assert.equal(found.kind, "reciprocal, not Markov");
     assert.match(found.status, /^After 9 measurements the landing place is known to 32 m; /);
+    assert.equal(await page.locator("#announcement").textContent(), found.status);
     assert.deepEqual(sins, []);
     await close();
   });
@@ -97,6 +98,30 @@ describe("the page of the sequences", () => {
     const paused = (await facts(page))["so-far"];
     await page.waitForTimeout(300);
     assert.equal((await facts(page))["so-far"], paused);
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  it("says while it plays what the numbers show, and announces only where it stops", async () => {
+    const { page, sins, close } = await opened();
+    await page.locator("#measured").fill("40");
+    await page.locator("#play").click();
+    const frames = await page.evaluate(async () => {
+      const frames = [];
+      const text = (id) => document.querySelector(`#${id}`).textContent;
+      while (Number.parseInt(text("so-far"), 10) < 48) {
+        await new Promise(requestAnimationFrame);
+        frames.push(["so-far", "deviation", "markov-deviation", "status", "announcement"].map(text));
+      }
+      return frames;
+    });
+    for (const [soFar, deviation, markov, status] of frames) {
+      assert.equal(status, `After ${Number.parseInt(soFar, 10)} measurements the landing place is known to ${deviation}; without a destination to ${markov}.`);
+    }
+    assert.ok(new Set(frames.map(([soFar]) => soFar)).size >= 5);
+    assert.ok(new Set(frames.map((frame) => frame.at(-1))).size <= 3);
+    await page.locator("#play").click();
+    await page.waitForFunction(() => document.querySelector("#announcement").textContent === document.querySelector("#status").textContent);
     assert.deepEqual(sins, []);
     await close();
   });
