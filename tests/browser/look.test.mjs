@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { head, launch, mouse, open, serve, shifts } from "./support.mjs";
 
+const PAGE = { path: "", ready: () => document.querySelector("#none").textContent !== "–" };
 const SEQUENCES = {
   path: "sequences/index.html",
   ready: () => document.querySelector("#kind").textContent !== "–" || document.documentElement.dataset.failed,
@@ -39,13 +40,20 @@ describe("look", () => {
       assert.ok(sum < 0.01, JSON.stringify(moved));
     });
 
-    it(`shifts nothing on the page of the sequences, at ${width} px`, async () => {
-      const { page, close } = await fresh({ viewport: { width, height } }, SEQUENCES);
-      const moved = await shifts(page);
-      await close();
-      const sum = moved.reduce((total, { value }) => total + value, 0);
-      assert.ok(sum < 0.01, JSON.stringify(moved));
-    });
+    for (const [name, where] of [["page", PAGE], ["page of the sequences", SEQUENCES]]) {
+      it(`shifts nothing where the ${name} comes over a slow line, at ${width} px`, async () => {
+        const { page, close } = await fresh({ viewport: { width, height } }, where);
+        const session = await page.context().newCDPSession(page);
+        await session.send("Network.setCacheDisabled", { cacheDisabled: true });
+        await session.send("Network.emulateNetworkConditions", { offline: false, latency: 100, downloadThroughput: 300_000, uploadThroughput: 100_000 });
+        await page.reload();
+        await page.waitForFunction(where.ready);
+        const moved = await shifts(page);
+        await close();
+        const sum = moved.reduce((total, { value }) => total + value, 0);
+        assert.ok(sum < 0.01, JSON.stringify(moved));
+      });
+    }
   }
 
   describe("theme", () => {
