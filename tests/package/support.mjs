@@ -37,8 +37,8 @@ export function assertPredicted(probabilities) {
 }
 
 /**
- * Packs the package and installs the tarball into an empty project. Gives its folder, the path of the tarball and the list of its files; all
- * is removed after the test.
+ * Packs the package and installs the tarball into an empty project. Gives its folder, the path of the tarball and the list of its
+ * files; all is removed after the test.
  */
 export async function project(t) {
   const folder = realpathSync(mkdtempSync(join(tmpdir(), "whither-package-")));
