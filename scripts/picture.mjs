@@ -25,7 +25,7 @@ for (const [index, to] of tour.slice(1).entries()) {
 }
 await hand.rest(0.6);
 const to = icons.get("seats");
-await hand.play(movement(tour.at(-1), to, to.width, { seed: 2, share: 0.66 }));
+await hand.play(movement(tour.at(-1), to, to.width, { seed: 2, share: 0.78 }));
 await read(page);
 await page.waitForTimeout(900);
 await mkdir(new URL("../docs/", import.meta.url), { recursive: true });

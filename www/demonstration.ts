@@ -12,7 +12,7 @@ import type { Chart } from "./view/chart.ts";
 import type { Fan } from "./view/fan.ts";
 import type { Numbers } from "./view/numbers.ts";
 import type { Screen } from "./view/screen.ts";
-import { prediction, START, verdict } from "./view/sentences.ts";
+import { prediction, verdict } from "./view/sentences.ts";
 import type { Words } from "./view/words.ts";
 
 export interface Views {
@@ -39,6 +39,7 @@ export class Demonstration {
   readonly #predictions: Predictions;
   readonly #labels: readonly string[];
   readonly #views: Views;
+  readonly #invitation: string;
   readonly #tally = new Tally();
   readonly #tracks = new Map<number, Track>();
   #boxes: readonly Box[];
@@ -49,13 +50,16 @@ export class Demonstration {
   /** While the light of a press stays or fades. */
   #glowing: ReturnType<typeof setTimeout> | null = null;
 
-  constructor(predictions: Predictions, settings: Settings, labels: readonly string[], views: Views) {
+  /** `invitation` says what to do while nothing moves. */
+  constructor(predictions: Predictions, settings: Settings, labels: readonly string[], invitation: string, views: Views) {
     this.#predictions = predictions;
     this.#settings = settings;
     this.#labels = labels;
+    this.#invitation = invitation;
     this.#views = views;
     this.#boxes = views.screen.measure();
     this.#quieten();
+    views.words.show(invitation);
   }
 
   /** Samples of one pointer, oldest first. */
@@ -104,7 +108,7 @@ export class Demonstration {
     this.#shown = null;
     if (this.#glowing !== null) return;
     this.#quieten();
-    this.#views.words.say(START);
+    this.#views.words.say(this.#invitation);
   }
 
   /** The page cannot be seen: every movement is over. */
@@ -162,7 +166,7 @@ export class Demonstration {
       gone: () => {
         this.forget(GHOST);
         this.#quieten();
-        this.#views.words.say(START, true);
+        this.#views.words.say(this.#invitation, true);
       },
     };
   }

@@ -14,6 +14,7 @@ import { controls } from "./view/controls.ts";
 import { Fan } from "./view/fan.ts";
 import { Numbers } from "./view/numbers.ts";
 import { Screen } from "./view/screen.ts";
+import { INVITATIONS } from "./view/sentences.ts";
 import { theme } from "./view/theme.ts";
 import { Words } from "./view/words.ts";
 
@@ -42,7 +43,8 @@ async function start(): Promise<void> {
   await init();
   await document.fonts.ready;
   const predictions = new Predictions(screen.measure(), DEFAULTS);
-  const demonstration = new Demonstration(predictions, DEFAULTS, labels, {
+  const invitation = matchMedia("(pointer: coarse)").matches ? INVITATIONS.coarse : INVITATIONS.fine;
+  const demonstration = new Demonstration(predictions, DEFAULTS, labels, invitation, {
     screen,
     fan,
     chart,

@@ -40,7 +40,7 @@ describe("touch", () => {
     assert.deepEqual(await presses(page), { pressed: 0, median: "–" });
     const shown = await read(page);
     assert.ok(shown.icons.every((icon) => !icon.predicted));
-    assert.equal(shown.status, "Move towards an icon.");
+    assert.equal(shown.status, "Draw a finger sideways, towards an icon.");
     assert.deepEqual(sins, []);
     await close();
   });

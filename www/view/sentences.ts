@@ -2,7 +2,8 @@
 import type { Outcome } from "../movement/outcome.ts";
 import { milliseconds } from "./format.ts";
 
-export const START = "Move towards an icon.";
+/** What to do, with a mouse or with a finger, which scrolls where it goes up or down. */
+export const INVITATIONS = { fine: "Move towards an icon.", coarse: "Draw a finger sideways, towards an icon." };
 
 /** What the ring shows, in words. */
 export function prediction(ringed: string | null, leaving: string | null): string {
