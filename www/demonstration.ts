@@ -132,12 +132,14 @@ export class Demonstration {
     this.#quieten();
   }
 
-  /** The icons may have moved. While the page is taken down or not laid out they have no size. */
-  place(): void {
+  /** Where the icons are: they may have moved. While the page is taken down or not laid out they have no size, and stay where they were. */
+  place(): readonly Box[] {
     const targets = this.#views.screen.measure();
-    if (!targets.every(({ width, height }) => width > 0 && height > 0)) return;
-    this.#boxes = targets;
-    this.#predictions.place(targets);
+    if (targets.every(({ width, height }) => width > 0 && height > 0)) {
+      this.#boxes = targets;
+      this.#predictions.place(targets);
+    }
+    return this.#boxes;
   }
 
   /** A finished movement of a simulated hand, for a chart that has nothing of its own to show yet. */
@@ -185,7 +187,8 @@ export class Demonstration {
     const track = this.#track(pointerId);
     let learnt = false;
     for (const sample of samples) {
-      const cut = track.add(sample, this.#boxes);
+      // where a movement begins, no event need have said that something moved the icons
+      const cut = track.add(sample, () => this.place());
       if (cut.fresh) this.#predictions.begin(pointerId);
       if (cut.samples.length === 0) continue;
       this.#predictions.observe(pointerId, cut.samples);

@@ -13,6 +13,7 @@ import { Chart } from "./view/chart.ts";
 import { controls } from "./view/controls.ts";
 import { Fan } from "./view/fan.ts";
 import { Numbers } from "./view/numbers.ts";
+import { onResolution } from "./view/resolution.ts";
 import { Screen } from "./view/screen.ts";
 import { INVITATIONS } from "./view/sentences.ts";
 import { theme } from "./view/theme.ts";
@@ -69,10 +70,15 @@ async function start(): Promise<void> {
     hidden: () => demonstration.hide(),
   });
 
-  const sizes = new ResizeObserver(() => {
+  const fit = () => {
     fan.fit();
     demonstration.place();
+  };
+  onResolution(() => {
+    fit();
+    chart.restyle();
   });
+  const sizes = new ResizeObserver(fit);
   sizes.observe(part("screen"));
   sizes.observe(part("grid"));
 

@@ -1,7 +1,7 @@
 /** One predictor for each pointer, all of them copies of one scenario. */
 import { Predictor, type PointerTarget } from "whither";
 import type { Sample } from "../movement/segmenter.ts";
-import { scenarioOf, type Settings } from "./settings.ts";
+import { ACCUMULATING, scenarioOf, type Settings } from "./settings.ts";
 
 /** Seconds. */
 export interface TimeToGo {
@@ -41,11 +41,15 @@ export class Predictions {
     this.#template = new Predictor(scenarioOf(targets, settings));
   }
 
-  /** The icons have moved: what has been observed stays. */
+  /** Where the icons are now: what has been observed stays, but for the methods that accumulate, which begin again. */
   place(targets: readonly PointerTarget[]): void {
+    if (targets.every((target, i) => sameBox(target, this.#targets[i]))) return;
     this.#targets = targets;
     const { destinations } = scenarioOf(targets, this.#settings);
-    for (const predictor of [this.#template, ...this.#tracks.values()]) predictor.setDestinations(destinations);
+    for (const predictor of [this.#template, ...this.#tracks.values()]) {
+      if (ACCUMULATING.includes(this.#settings.method)) predictor.reset();
+      predictor.setDestinations(destinations);
+    }
   }
 
   /** Another model: every pointer starts afresh. */
@@ -114,4 +118,8 @@ function timeToGo(predictor: Predictor, now: number): TimeToGo | null {
     return Math.max(0, (arrival.times[node] ?? arrival.mean) - now);
   };
   return { mean: Math.max(0, arrival.mean - now), low: quantile(0.1), high: quantile(0.9) };
+}
+
+function sameBox(one: PointerTarget, other: PointerTarget | undefined): boolean {
+  return other !== undefined && one.x === other.x && one.y === other.y && one.width === other.width && one.height === other.height;
 }

@@ -38,7 +38,7 @@ const TIME_TO_GO: Arrival = { type: "horizon", from: 0.05, to: 0.5 };
 const WHOLE_TIME: Arrival = { type: "uniform", from: 0.1, to: 2.5 };
 
 /** These accumulate evidence for each arrival time, so the prior must be one of the whole time. */
-const ACCUMULATING: readonly Method[] = ["algorithm1", "algorithm2", "bridging"];
+export const ACCUMULATING: readonly Method[] = ["algorithm1", "algorithm2", "bridging"];
 
 export function scenarioOf(targets: readonly PointerTarget[], settings: Settings): Scenario {
   const factor = 2 ** settings.noise;

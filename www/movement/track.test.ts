@@ -73,7 +73,7 @@ describe("track", () => {
   /** A hand from the first box to the second, at 100 Hz, with a probability that grows on the way. */
   function go(track: Track, start = 0): number {
     for (let step = 0; step <= 50; step += 1) {
-      track.add({ time: start + step / 100, x: 50 + 10 * step, y: 50 }, boxes);
+      track.add({ time: start + step / 100, x: 50 + 10 * step, y: 50 }, () => boxes);
       track.record(Float64Array.of(1 - step / 50, step / 50), 0, 0.8);
     }
     return start + 0.5;
@@ -82,7 +82,7 @@ describe("track", () => {
   /** A hand that stirs about a place, 20 px at a time. */
   function stir(track: Track, start: number, x: number): number {
     for (let step = 0; step < 20; step += 1) {
-      track.add({ time: start + step / 100, x: x + 20 * Math.sin(step), y: 50 }, boxes);
+      track.add({ time: start + step / 100, x: x + 20 * Math.sin(step), y: 50 }, () => boxes);
       track.record(Float64Array.of(0.5, 0.5), 0, 0.8);
     }
     return start + 0.2;

@@ -32,14 +32,14 @@ export class Track {
     return this.#heard;
   }
 
-  /** Takes a sample; where it begins a movement, among these boxes. */
-  add(sample: Sample, boxes: readonly Box[]): Cut {
+  /** Takes a sample; where it begins a movement, among the boxes as they are then. */
+  add(sample: Sample, boxes: () => readonly Box[]): Cut {
     const cut = this.#segmenter.add(sample);
     const [first] = cut.samples;
     if (!first) return cut;
     if (cut.fresh) {
       if (this.#movement?.intent.confinedTo === null) this.#before = this.#movement;
-      this.#movement = { history: new History(), intent: new IntentRule(first, boxes) };
+      this.#movement = { history: new History(), intent: new IntentRule(first, boxes()) };
     }
     for (const each of cut.samples) this.#movement?.intent.move(each);
     this.#heard = sample;

@@ -1,5 +1,6 @@
 /** Puts the page of the sequences together: settings in, flights and predictions out. */
 import { init } from "whither";
+import { onResolution } from "../view/resolution.ts";
 import { theme } from "../view/theme.ts";
 import { Words } from "../view/words.ts";
 import { Airliner, at, PAPER, STEPS, type Prediction, type Settings } from "./airliner.ts";
@@ -111,6 +112,7 @@ async function start(): Promise<void> {
   };
   theme(part<HTMLButtonElement>("theme"), fit);
   new ResizeObserver(fit).observe(part("map"));
+  onResolution(fit);
   refresh(false);
 }
 

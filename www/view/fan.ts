@@ -32,6 +32,7 @@ export class Fan {
   }
 
   draw(outlook: Outlook, probabilities: ArrayLike<number>): void {
+    if (devicePixelRatio !== this.#scale) this.fit();
     this.clear();
     const context = this.#canvas.getContext("2d");
     if (!context) return;

@@ -1,0 +1,76 @@
+// Where icons and pixels change without an event that says so: a transform on an ancestor, another resolution.
+import assert from "node:assert/strict";
+import { after, before, describe, it } from "node:test";
+import { head, launch, mouse, nextFrame, open, serve } from "./support.mjs";
+
+/** Styles that move the icons after the page has loaded, and resize nothing. */
+const MOVES = [
+  ["a shift of the icons", "#grid", "transform: translate(-90px, 40px)"],
+  ["a page made smaller", "main", "transform: scale(0.6); transform-origin: 0 0"],
+  ["a page turned upside down", "#screen", "rotate: 180deg"],
+];
+
+const canvases = (page) =>
+  page.evaluate(() =>
+    [...document.querySelectorAll("canvas")].map((canvas) => canvas.width / Math.max(1, canvas.getBoundingClientRect().width)),
+  );
+
+describe("layout", () => {
+  let host, browser;
+
+  before(async () => {
+    host = await serve();
+    browser = await launch();
+  });
+  after(async () => {
+    await browser.close();
+    await host.close();
+  });
+
+  for (const [name, selector, style] of MOVES) {
+    it(`follows ${name}`, async () => {
+      const { page, sins, close } = await open(browser, host.url);
+      await page.evaluate(([selector, style]) => document.querySelector(selector).style.cssText += style, [selector, style]);
+      const hand = await mouse(page);
+      for (const [from, to] of [["media", "tyres"], ["fuel", "navigation"], ["help", "phone"]]) {
+        const { shown } = await head(page, hand, from, to, { seed: 7, share: 0.85 });
+        assert.equal(shown.top.id, to, `from ${from}`);
+      }
+      assert.deepEqual(sins, []);
+      await close();
+    });
+  }
+
+  it("begins again where the method accumulates and the icons have moved", async () => {
+    const { page, sins, close } = await open(browser, host.url);
+    await page.locator(".controls summary").click();
+    await page.locator("select[name=method]").selectOption("algorithm1");
+    const hand = await mouse(page);
+    await head(page, hand, "media", "tyres", { seed: 3, share: 0.5 });
+    await page.evaluate(() => (document.querySelector("#grid").style.transform = "translate(-60px, 30px)"));
+    const { shown } = await head(page, hand, "fuel", "navigation", { seed: 4, share: 0.9 });
+    assert.equal(shown.top.id, "navigation");
+    assert.deepEqual(sins, []);
+    await close();
+  });
+
+  for (const path of ["", "sequences/index.html"]) {
+    it(`draws as finely as the screen shows, on /${path}`, async () => {
+      const ready = path === "" ? undefined : { path, ready: () => document.querySelector("#so-far").textContent.includes("of") };
+      const { page, sins, close } = await open(browser, host.url, {}, ready);
+      const session = await page.context().newCDPSession(page);
+      for (const [step, deviceScaleFactor] of [2, 1.5, 1].entries()) {
+        // Chromium tells the page of an emulated resolution only together with another size; this one resizes nothing on it
+        const size = { width: 1280, height: 801 + step };
+        await session.send("Emulation.setDeviceMetricsOverride", { ...size, deviceScaleFactor, mobile: false });
+        await nextFrame(page);
+        await page.waitForFunction((ratio) => devicePixelRatio === ratio, deviceScaleFactor);
+        await nextFrame(page);
+        const found = await canvases(page);
+        assert.ok(found.length > 0 && found.every((ratio) => Math.abs(ratio - deviceScaleFactor) < 0.02), `${deviceScaleFactor}: ${found}`);
+      }
+      assert.deepEqual(sins, []);
+      await close();
+    });
+  }
+});
