@@ -25,11 +25,15 @@ test("the README's code", async (t) => {
     assert.match(readme, /on no registry yet/);
   });
 
-  for (const lib of [["ES2022", "DOM"], undefined]) {
-    await t.test(`on a page compiles as it is pasted into a strict TypeScript project, ${lib ?? "with the usual libraries"}`, async () => {
+  const projects = {
+    "strict and no more": {},
+    "with the fewest libraries": { lib: ["ES2022", "DOM"] },
+    "with every check": { noUncheckedIndexedAccess: true, noImplicitReturns: true, noUnusedLocals: true, noUnusedParameters: true },
+  };
+  for (const [name, more] of Object.entries(projects)) {
+    await t.test(`on a page compiles as it is pasted into a strict TypeScript project, ${name}`, async () => {
       write(folder, "pasted.ts", onAPage);
-      const options = { target: "ES2022", lib, module: "esnext", moduleResolution: "bundler" };
-      const compilerOptions = { ...strict, ...options, noUncheckedIndexedAccess: true, noImplicitReturns: true };
+      const compilerOptions = { ...strict, target: "ES2022", module: "esnext", moduleResolution: "bundler", ...more };
       write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["pasted.ts"] }));
       const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
       assert.equal(code, 0, output);
