@@ -1,8 +1,8 @@
 //! `initial.evidence`: what the first observation says of the destination, `p(y_1 | D_i, T)` in Liang (5), counts in every method.
 
 use crate::batch::Batch;
-use crate::problem::{Problem, choices};
-use crate::support::{numbers, predictor, random, relative};
+use crate::problem::{Problem, choices, random};
+use crate::support::{numbers, predictor, relative};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::Predictor;

@@ -1,8 +1,8 @@
 //! Identities between the methods, and invariances, over random models, steps and endpoints.
 
 use crate::batch::Batch;
-use crate::problem::{Choice, Draw, KINDS, choices};
-use crate::support::{random, relative};
+use crate::problem::{Choice, Draw, KINDS, choices, random};
+use crate::support::relative;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::Predictor;

@@ -27,8 +27,8 @@ const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_obse
 
 /// Who may name the generated code and its one importer.
 const JAVASCRIPT: [(&str, &[&str]); 2] = [
-    ("./generated/", &["glue", "embedded", "study"]),
-    ("./glue.js", &["embedded", "slim", "workerd", "predicting", "predictor", "sequence", "pointer"]),
+    ("./generated/", &["glue", "embedded", "learn", "study"]),
+    ("./glue.js", &["loading", "predicting", "predictor", "sequence", "pointer"]),
 ];
 
 const LONGEST: usize = 450;

@@ -1,7 +1,7 @@
 //! The pointing model on clocks as browsers have them: several places at one time; and pointers that rest.
 
-use crate::problem::Draw;
-use crate::support::{predictor, random};
+use crate::problem::{Draw, random};
+use crate::support::predictor;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};

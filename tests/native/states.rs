@@ -1,8 +1,8 @@
 //! States and forecasts: each method answers by its own family, as the joint Gaussian has it, and conditionally Markov sequences.
 
 use crate::batch::Batch;
-use crate::problem::{Draw, choices};
-use crate::support::{predictor, random, relative, value};
+use crate::problem::{Draw, choices, random};
+use crate::support::{predictor, relative, value};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::{ConditionallyMarkovSequence, Gaussian, Predictor};

@@ -1,6 +1,5 @@
 //! Reading golden cases and building scenarios from JSON.
 
-use proptest::test_runner::{Config, RngSeed};
 use serde_json::{Value as Json, json};
 use std::path::Path;
 use whither::{Predictor, Scenario, Value};
@@ -51,16 +50,6 @@ pub fn predictor(scenario: &Json) -> Predictor {
 /// A list of numbers; null is minus infinity, as the golden cases write it.
 pub fn numbers(json: &Json) -> Vec<f64> {
     json.as_array().unwrap().iter().map(|x| x.as_f64().unwrap_or(f64::NEG_INFINITY)).collect()
-}
-
-/// So many random cases, the same in every run unless `PROPTEST_RNG_SEED` asks for others.
-pub fn random(cases: u32) -> Config {
-    let default = Config::default();
-    let rng_seed = match default.rng_seed {
-        RngSeed::Random => RngSeed::Fixed(2026),
-        seed @ RngSeed::Fixed(_) => seed,
-    };
-    Config { cases, rng_seed, failure_persistence: None, ..default }
 }
 
 /// The largest difference between two lists, relative to `1 + |expected|`.

@@ -4,14 +4,14 @@
 
 mod ardeshiri;
 mod gestures;
+#[cfg(test)]
+mod headlines;
 mod liang;
 mod movement;
 mod plot;
 mod random;
 mod report;
 mod rezaie_li;
-#[cfg(test)]
-mod tests;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
