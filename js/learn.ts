@@ -4,7 +4,7 @@
  * @module
  */
 import { WhitherError } from "./error.js";
-import { __wbg_set_wasm, fit, imports } from "./generated/study.js";
+import { __wbg_set_wasm, fit, imports, make_room } from "./generated/study.js";
 import { checkOptions } from "./options.js";
 import type { Scenario } from "./scenario.js";
 import { compiled, type WasmSource } from "./source.js";
@@ -32,12 +32,16 @@ export async function learn<S extends Omit<Scenario, "destinations">>(
   if (progress !== undefined && typeof progress !== "function") {
     throw new WhitherError("wrong-type", "progress", "must be a function");
   }
-  const given = plain({ ...others, tracks, scenario });
+  let bytes = 0;
+  const given = plain({ ...others, tracks, scenario }, "", (needed) => void (bytes = 2 * needed));
   loading ??= load(source).catch((error: unknown) => {
     loading = undefined;
     throw error;
   });
   await loading;
+  if (!make_room(bytes)) {
+    throw new WhitherError("too-large", "tracks", `may take ${Math.ceil(bytes / 2 ** 20)} MB of memory, more than there is`);
+  }
   let thrown: { readonly error: unknown } | undefined;
   const listener = {
     tell(share: number, loss: number): boolean {

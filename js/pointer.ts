@@ -1,6 +1,6 @@
 import { loaded, pointer_scenario } from "./glue.js";
+import { handed } from "./room.js";
 import type { PointerOptions, PointerTarget, Scenario } from "./scenario.js";
-import { plain } from "./value.js";
 
 /**
  * The tuned scenario for a mouse, a pen or a finger on a screen: its targets and everything else filled in with constants that
@@ -22,5 +22,5 @@ import { plain } from "./value.js";
  */
 export function pointerScenario(targets: readonly PointerTarget[], options?: PointerOptions): Scenario {
   loaded();
-  return pointer_scenario(plain({ targets, options })) as Scenario;
+  return pointer_scenario(handed({ targets, options }, "", 2)) as Scenario;
 }

@@ -4,8 +4,12 @@ import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./glue.js";
 import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
+import { bounds, handed, isShort, room, type Bounds } from "./room.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
-import { isList, MOST_ITEMS, plain } from "./value.js";
+import { isList, MOST_ITEMS } from "./value.js";
+
+/** What one destination with arrival times of its own may take, in bytes. */
+const ONE = 2 ** 23;
 
 /**
  * One observed position: a number for each observed axis, as an array, a typed array or anything with `length` and indices.
@@ -93,8 +97,14 @@ export interface Snapshot {
  * ```
  */
 export class Predictor {
+  /** The build gives classes short names. @internal */
+  static readonly name = "Predictor";
+
   #engine: Engine | null;
   #view = new Float64Array(0);
+  /** Whether a movement has begun, and a bound of the memory that it takes. */
+  #moves = false;
+  #movement = 0;
 
   /**
    * @param scenario - The whole configuration. It is copied: changing the object later changes nothing.
@@ -104,7 +114,7 @@ export class Predictor {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = scenario;
-    this.#engine = given instanceof Engine ? given : new Engine(plain(given));
+    this.#engine = given instanceof Engine ? given : new Engine(handed(given));
   }
 
   /**
@@ -130,13 +140,13 @@ export class Predictor {
       const y = count > 1 ? position[1] : 0;
       const z = count > 2 ? position[2] : 0;
       if (typeof x === "number" && typeof y === "number" && typeof z === "number") {
-        this.#live().observe(time, count, x, y, z);
+        this.#moving().observe(time, count, x, y, z);
         return;
       }
     }
     const list = !isList(position) && typeof position === "object" && count <= MOST_ITEMS;
-    const observation = plain({ time, position: list ? Array.from(position) : position, noise });
-    this.#live().observe_in_full(observation);
+    const observation = handed({ time, position: list ? Array.from(position) : position, noise });
+    this.#moving().observe_in_full(observation);
   }
 
   /**
@@ -189,7 +199,8 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`.
    */
   arrival(id?: string): ArrivalTime | null {
-    const numbers = this.#live().arrival(plain({ id }));
+    const given = handed({ id });
+    const numbers = this.#asked("answer").arrival(given);
     if (numbers === undefined) return null;
     const nodes = (numbers.length - 2) / 2;
     return {
@@ -202,7 +213,7 @@ export class Predictor {
 
   /** How long it takes until the object enters its target; null before that can be said. */
   get remaining(): Remaining | null {
-    const numbers = this.#live().remaining();
+    const numbers = this.#asked("answer").remaining();
     if (numbers === undefined) return null;
     const [mean, low, high] = numbers as unknown as [number, number, number];
     return { mean, low, high };
@@ -217,7 +228,7 @@ export class Predictor {
 
   /** The ids of the destinations, in the order of {@link probabilities}. */
   get destinations(): string[] {
-    return this.#live().ids();
+    return this.#asked("ids").ids();
   }
 
   /**
@@ -228,13 +239,13 @@ export class Predictor {
    * @returns null before the first observation.
    */
   state(): Gaussian | null {
-    const numbers = this.#live().state();
+    const numbers = this.#asked("answer").state();
     return numbers ? gaussian(numbers) : null;
   }
 
   /** The state at the first observation, given all that came since; null before it. */
   initialState(): Gaussian | null {
-    const numbers = this.#live().initial_state();
+    const numbers = this.#asked("answer").initial_state();
     return numbers ? gaussian(numbers) : null;
   }
 
@@ -247,7 +258,8 @@ export class Predictor {
    * @throws {@link WhitherError} `out-of-range`, `not-finite`.
    */
   forecast(time: number): Gaussian | null {
-    const numbers = this.#live().forecast(plain({ time }));
+    const given = handed({ time });
+    const numbers = this.#asked("answer").forecast(given);
     return numbers ? gaussian(numbers) : null;
   }
 
@@ -260,7 +272,8 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, `out-of-range`, `not-finite`.
    */
   path(id: string, times: Vector): Float64Array {
-    return this.#live().path(plain({ id, times }));
+    const given = handed({ id, times });
+    return this.#asked("answer", 1, 64 * (times?.length ?? 0)).path(given);
   }
 
   /**
@@ -270,7 +283,8 @@ export class Predictor {
    * accumulates evidence for each destination; and as the constructor does.
    */
   addDestination(destination: Destination): void {
-    this.#live().add_destination(plain({ destination }));
+    const given = handed({ destination });
+    this.#asked("change", 1, ONE).add_destination(given);
   }
 
   /**
@@ -281,7 +295,8 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, and as {@link addDestination} does.
    */
   updateDestination(id: string, destination: Omit<Destination, "id"> & { readonly id?: string }): void {
-    this.#live().update_destination(plain({ id, destination }));
+    const given = handed({ id, destination });
+    this.#asked("change", 1, ONE).update_destination(given);
   }
 
   /**
@@ -290,7 +305,8 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`; `no-destinations` for the last one; `method-accumulates`.
    */
   removeDestination(id: string): void {
-    this.#live().remove_destination(plain({ id }));
+    const given = handed({ id });
+    this.#asked("change").remove_destination(given);
   }
 
   /**
@@ -300,12 +316,14 @@ export class Predictor {
    * @throws {@link WhitherError} as {@link addDestination} does.
    */
   setDestinations(destinations: readonly Destination[]): void {
-    this.#live().set_destinations(plain({ destinations }));
+    const given = handed({ destinations });
+    this.#asked("change", 1 + (destinations?.length ?? 0) / this.#live().len()).set_destinations(given);
   }
 
   /** Begins a new movement with the same scenario and the destinations as they are now. */
   reset(): void {
     this.#live().reset();
+    this.#moves = false;
   }
 
   /**
@@ -315,12 +333,13 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`.
    */
   chosen(id: string): void {
-    this.#live().chosen(plain({ id }));
+    const given = handed({ id });
+    this.#asked("change").chosen(given);
   }
 
   /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */
   clone(): Predictor {
-    return adopt(this.#live().duplicate());
+    return adopt(this.#asked("change").duplicate());
   }
 
   /**
@@ -333,7 +352,7 @@ export class Predictor {
    * ```
    */
   snapshot(): Snapshot {
-    return this.#live().snapshot() as Snapshot;
+    return this.#asked("snapshot").snapshot() as Snapshot;
   }
 
   /**
@@ -343,7 +362,7 @@ export class Predictor {
    */
   static restore(snapshot: Snapshot): Predictor {
     loaded();
-    return adopt(Engine.restore(plain(snapshot, "snapshot")));
+    return adopt(Engine.restore(handed(snapshot, "snapshot", 2)));
   }
 
   /**
@@ -363,6 +382,26 @@ export class Predictor {
 
   #live(): Engine {
     return this.#engine ?? freed("predictor");
+  }
+
+  /** The engine, which has the memory for an observation: a movement takes some when it begins, and when its last time passes. */
+  #moving(): Engine {
+    const engine = this.#live();
+    if (this.#moves && !isShort()) return engine;
+    if (!this.#moves) this.#movement = bounds(engine).movement;
+    room(this.#movement);
+    this.#moves = true;
+    return engine;
+  }
+
+  /** The engine, which has the memory for what follows, `times` as much as with the destinations it has, and so many bytes. */
+  #asked(what: keyof Bounds, times = 1, more = 0): Engine {
+    const engine = this.#live();
+    const bound = bounds(engine);
+    room(times * bound[what] + more);
+    // a change of destinations is a change of what a movement takes
+    this.#movement = times * bound.movement;
+    return engine;
   }
 
   /** One number for each destination, at `address` in the module's memory: good until the next call into it. */

@@ -3,8 +3,8 @@ import { gaussian, type Gaussian } from "./gaussian.js";
 import { loaded, SequenceEngine } from "./glue.js";
 import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
+import { handed, room } from "./room.js";
 import type { Matrix, Motion, Observation, Vector } from "./scenario.js";
-import { plain } from "./value.js";
 
 /** A sequence that is induced by a motion model, from an origin to a destination, by way of waypoints if there are any. */
 export interface SequenceParameters {
@@ -87,6 +87,9 @@ export interface StepModel {
  * ```
  */
 export class ConditionallyMarkovSequence {
+  /** The build gives classes short names. @internal */
+  static readonly name = "ConditionallyMarkovSequence";
+
   #engine: SequenceEngine | null;
 
   /**
@@ -97,7 +100,7 @@ export class ConditionallyMarkovSequence {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = parameters;
-    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(plain(given));
+    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(handed(given));
   }
 
   /**
@@ -107,7 +110,7 @@ export class ConditionallyMarkovSequence {
    */
   static fromParameters(parameters: GivenSequence): ConditionallyMarkovSequence {
     loaded();
-    return adopt(SequenceEngine.from_parameters(plain(parameters)));
+    return adopt(SequenceEngine.from_parameters(handed(parameters)));
   }
 
   /**
@@ -118,7 +121,7 @@ export class ConditionallyMarkovSequence {
    */
   model(step: number): StepModel {
     const engine = this.#live();
-    const numbers = engine.model(plain({ step }));
+    const numbers = engine.model(handed({ step }));
     const size = engine.states() ** 2;
     return {
       previous: numbers.slice(0, size),
@@ -136,7 +139,8 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `time-not-increasing`, `out-of-range`, `wrong-length`, `not-finite`.
    */
   measure(step: number, position: Vector): void {
-    this.#live().measure(plain({ step, position }));
+    const given = handed({ step, position });
+    this.#asked().measure(given);
   }
 
   /**
@@ -146,7 +150,8 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `out-of-range`.
    */
   state(step: number): Gaussian {
-    return gaussian(this.#live().state(plain({ step })));
+    const given = handed({ step });
+    return gaussian(this.#asked().state(given));
   }
 
   /** The state at the end, given all measurements so far. */
@@ -168,9 +173,12 @@ export class ConditionallyMarkovSequence {
    */
   sample(options: { readonly seed: number; readonly count: number }): Float64Array[] {
     checkOptions(options, ["seed", "count"]);
+    const given = handed(options ?? {});
     const engine = this.#live();
-    const numbers = engine.sample(plain(options ?? {}));
     const length = (engine.steps() + 1) * engine.states();
+    // what is more than may be drawn is refused for that reason
+    this.#asked(16 * Math.min(1.5e7, (length + 4) * options?.count || 0));
+    const numbers = engine.sample(given);
     return Array.from({ length: numbers.length / length }, (_, i) => numbers.slice(i * length, (i + 1) * length));
   }
 
@@ -181,7 +189,8 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isReciprocal(tolerance?: number): boolean {
-    return this.#live().is_reciprocal(plain({ tolerance }));
+    const given = handed({ tolerance });
+    return this.#asked().is_reciprocal(given);
   }
 
   /**
@@ -190,7 +199,8 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isMarkov(tolerance?: number): boolean {
-    return this.#live().is_markov(plain({ tolerance }));
+    const given = handed({ tolerance });
+    return this.#asked().is_markov(given);
   }
 
   /**
@@ -206,6 +216,13 @@ export class ConditionallyMarkovSequence {
   /** Frees the sequence at the end of a `using` declaration's block; does nothing where it was freed before. */
   [dispose](): void {
     if (this.#engine) this.free();
+  }
+
+  /** The engine, which has the memory for what follows, with so many bytes `more`. */
+  #asked(more = 0): SequenceEngine {
+    const engine = this.#live();
+    room(64 * engine.size() + more);
+    return engine;
   }
 
   #live(): SequenceEngine {

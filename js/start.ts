@@ -3,7 +3,7 @@
  *
  * @module
  */
-import type { WhitherError } from "./error.js";
+import { WhitherError } from "./error.js";
 import { reason, unavailable } from "./source.js";
 
 /** What the generated code has for this: the functions that WebAssembly calls, and one that takes in what WebAssembly exports. */
@@ -32,10 +32,24 @@ export function instantiatedNow(module: WebAssembly.Module, side: Side): WebAsse
 
 /** Hands the instance to the generated code; gives what it exports. */
 export function begin<E extends object>(instance: WebAssembly.Instance, side: Side): E {
-  const exports = instance.exports as E & { __wbindgen_start(): void };
+  const exports = { ...instance.exports };
+  for (const [name, item] of Object.entries(exports)) {
+    if (typeof item === "function") exports[name] = guarded(item as (...args: unknown[]) => unknown);
+  }
   side.__wbg_set_wasm(exports);
-  exports.__wbindgen_start();
-  return exports;
+  (exports as { __wbindgen_start?(): void }).__wbindgen_start?.();
+  return exports as E;
+}
+
+/** WebAssembly asks for memory before it does anything (`src/wasm/room.rs`): what it runs out of all the same has a code, too. */
+function guarded(call: (...args: unknown[]) => unknown): (...args: unknown[]) => unknown {
+  return (...args) => {
+    try {
+      return call(...args);
+    } catch (error) {
+      throw new WhitherError("too-large", "", `WebAssembly ran out of memory or of stack: ${reason(error)}`, { cause: error });
+    }
+  };
 }
 
 /** The error for a module that cannot be instantiated. */

@@ -10,7 +10,8 @@ import { WhitherError } from "./error.js";
 
 /** The longest list that crosses: as many destinations as a predictor may have. */
 export const MOST_ITEMS = 1_000_000;
-const MOST_VALUES = 1 << 24;
+/** The most values that cross at once. */
+export const MOST_VALUES = 1 << 24;
 const MOST_TEXT = 1 << 26;
 const DEEPEST = 24;
 
@@ -19,9 +20,13 @@ const DEEPEST = 24;
  *
  * @param value - What a user gave.
  * @param name - What every path in an error begins with; nothing for a scenario.
+ * @param ask - Is told a bound of the bytes that the copy takes in WebAssembly, with what is made of it.
  */
-export function plain(value: unknown, name = ""): unknown {
-  return new Copier(name).copy(value);
+export function plain(value: unknown, name: string, ask: (bytes: number) => void): unknown {
+  const copier = new Copier(name);
+  const copied = copier.copy(value);
+  ask(copier.bytes);
+  return copied;
 }
 
 class Copier {
@@ -33,6 +38,10 @@ class Copier {
 
   constructor(name: string) {
     this.#name = name;
+  }
+
+  get bytes(): number {
+    return 96 * this.#values + 16 * this.#length;
   }
 
   copy(value: unknown): unknown {

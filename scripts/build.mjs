@@ -1,5 +1,5 @@
 // `npm run build`: dist/, which is what the package ships.
-import { copyFileSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { buildWasm, modules } from "./build-wasm.mjs";
 import { incremental } from "./incremental.mjs";
@@ -57,7 +57,7 @@ export async function build() {
 /** One file for each entry, one that those of `whither` share (so that the loaded engine is the same), and those apart. */
 async function bundle() {
   const esbuild = await import("esbuild");
-  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", format: "esm", ...syntax };
+  const small = { minify: true, legalComments: "none", format: "esm", ...syntax };
   // An uncaught error prints the line that threw it, so lines are short; the maps lead from them to js/.
   const readable = { lineLimit: 120, sourcemap: true };
   for (const { entries, module } of bundles) {
@@ -71,29 +71,18 @@ async function bundle() {
       splitting: entries.length > 1,
       chunkNames: "shared",
       define: { WASM_FILE: JSON.stringify(`${module}.wasm`) },
-      plugins: [
-        { name: "own files", setup: (plugin) => keepApart(plugin, module) },
-        { name: "short names", setup: ({ onLoad }) => onLoad({ filter: /\/generated\/\w+\.js$/ }, shorten) },
-      ],
+      plugins: [{ name: "own files", setup: (plugin) => keepApart(plugin, module) }],
     });
   }
   for (const name of apart) {
     const error = name === "error";
     const source = error ? `js/${name}.ts` : `js/${name}.js`;
-    await esbuild.build({ ...small, ...(error ? readable : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
+    await esbuild.build({ ...small, ...(error ? { ...readable, minifyIdentifiers: false } : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
   }
   const found = readdirSync(dist).filter((name) => !name.endsWith(".map")).sort().join(" ");
   const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];
   const expected = names.map((name) => `${name}.js`).sort().join(" ");
   if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
-}
-
-/** The generated code under short names, which nobody sees; classes and functions that users see keep theirs. */
-async function shorten({ path }) {
-  const { transform } = await import("esbuild");
-  const options = { minify: true, sourcemap: "inline", sourcefile: basename(path), ...syntax };
-  const { code } = await transform(readFileSync(path, "utf8"), options);
-  return { contents: code };
 }
 
 /** Leaves out what stands apart; an entry with another WebAssembly than `whither.wasm` takes the code and the bytes of its own. */

@@ -11,6 +11,7 @@ mod fit;
 mod pointer;
 #[cfg(feature = "wasm")]
 mod predictor;
+mod room;
 #[cfg(all(feature = "wasm", feature = "papers"))]
 mod sequence;
 

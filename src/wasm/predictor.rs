@@ -1,6 +1,6 @@
 //! What `js/predictor.ts` stands on.
 
-use super::{Result, data, flat};
+use super::{Result, data, flat, room};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value};
@@ -59,6 +59,11 @@ impl Engine {
         let position = position.items()?.map(coordinate).collect::<crate::Result<Vec<_>>>()?;
         let noise = fields.optional("noise");
         Ok(self.predictor.observe_with(time, &position, noise.as_ref().map(Node::value))?)
+    }
+
+    /// What there is much of: [`room::sizes`].
+    pub fn sizes(&self) -> Vec<f64> {
+        room::sizes(&self.predictor).to_vec()
     }
 
     /// The number of destinations.

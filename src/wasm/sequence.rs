@@ -38,6 +38,11 @@ impl SequenceEngine {
         self.sequence.steps()
     }
 
+    /// How many numbers the joint density of the pinned states and two more has.
+    pub fn size(&self) -> f64 {
+        (((self.sequence.pins().len() + 2) * self.states()) as f64).powi(2)
+    }
+
     /// The model of `{ step }`: previous, destination and covariance row by row, and behind them the offset.
     pub fn model(&self, value: JsValue) -> Result<Vec<f64>> {
         let model = self.sequence.model(self.step(value)?)?;
