@@ -97,9 +97,6 @@ export interface Snapshot {
  * ```
  */
 export class Predictor {
-  /** The build gives classes short names. @internal */
-  static readonly name = "Predictor";
-
   #engine: Engine | null;
   #view = new Float64Array(0);
   /** Whether a movement has begun, and a bound of the memory that it takes. */

@@ -87,9 +87,6 @@ export interface StepModel {
  * ```
  */
 export class ConditionallyMarkovSequence {
-  /** The build gives classes short names. @internal */
-  static readonly name = "ConditionallyMarkovSequence";
-
   #engine: SequenceEngine | null;
 
   /**

@@ -57,7 +57,8 @@ export async function build() {
 /** One file for each entry, one that those of `whither` share (so that the loaded engine is the same), and those apart. */
 async function bundle() {
   const esbuild = await import("esbuild");
-  const small = { minify: true, legalComments: "none", format: "esm", ...syntax };
+  // names stay: they are what a stack of calls is read by
+  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", format: "esm", ...syntax };
   // An uncaught error prints the line that threw it, so lines are short; the maps lead from them to js/.
   const readable = { lineLimit: 120, sourcemap: true };
   for (const { entries, module } of bundles) {
@@ -77,7 +78,7 @@ async function bundle() {
   for (const name of apart) {
     const error = name === "error";
     const source = error ? `js/${name}.ts` : `js/${name}.js`;
-    await esbuild.build({ ...small, ...(error ? { ...readable, minifyIdentifiers: false } : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
+    await esbuild.build({ ...small, ...(error ? readable : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
   }
   const found = readdirSync(dist).filter((name) => !name.endsWith(".map")).sort().join(" ");
   const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];

@@ -1,6 +1,8 @@
 //! The predictor: observations in, beliefs out.
 
 mod edit;
+#[cfg(feature = "wasm")]
+mod size;
 mod track;
 
 use crate::error::{Code, Error, Result};

@@ -1,6 +1,6 @@
 //! What `js/predictor.ts` stands on.
 
-use super::{Result, data, flat, room};
+use super::{Result, data, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value};
@@ -61,9 +61,9 @@ impl Engine {
         Ok(self.predictor.observe_with(time, &position, noise.as_ref().map(Node::value))?)
     }
 
-    /// What there is much of: [`room::sizes`].
+    /// What there is much of.
     pub fn sizes(&self) -> Vec<f64> {
-        room::sizes(&self.predictor).to_vec()
+        self.predictor.sizes().to_vec()
     }
 
     /// The number of destinations.

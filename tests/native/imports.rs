@@ -28,7 +28,7 @@ const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_obse
 /// Who may name the generated code and its one importer.
 const JAVASCRIPT: [(&str, &[&str]); 2] = [
     ("./generated/", &["glue", "embedded", "learn", "study"]),
-    ("./glue.js", &["loading", "predicting", "predictor", "sequence", "pointer"]),
+    ("./glue.js", &["loading", "predicting", "predictor", "room", "sequence", "pointer"]),
 ];
 
 const LONGEST: usize = 450;

@@ -1,0 +1,41 @@
+//! How much a predictor has of what takes memory: the package asks for it before a call (`js/room.ts`).
+
+use super::Predictor;
+use crate::likelihood::Method;
+use crate::scenario::Engine;
+
+impl Predictor {
+    /// Destinations, and bytes of their ids; and of the papers' methods numbers for each destination and arrival time, numbers for
+    /// each arrival time of a kind of destinations, those that a movement keeps, those that a snapshot has.
+    pub(crate) fn sizes(&self) -> [f64; 6] {
+        let [pairs, nodes, kept, saved] = self.numbers();
+        let ids: usize = self.ids().map(str::len).sum();
+        [self.len() as f64, ids as f64, pairs, nodes, kept, saved]
+    }
+
+    fn numbers(&self) -> [f64; 4] {
+        let (scenario, destinations) = (&self.scenario, &self.destinations);
+        let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { return [0.0; 4] };
+        let prior = |kind: usize| destinations.kinds()[kind].arrival().unwrap_or(arrival);
+        let points = |kind: usize| prior(kind).points(quadrature) as f64;
+        let mut pairs = 0.0;
+        let mut nodes: f64 = (0..destinations.kinds().len()).map(points).sum();
+        for kind in (0..destinations.len()).map(|i| destinations.kind_number(i)) {
+            pairs += points(kind);
+            nodes += if prior(kind).needs_distance() { points(kind) } else { 0.0 };
+        }
+        let candidates = scenario.motion.candidates.len() as f64;
+        let states = scenario.motion.states() as f64;
+        let (pairs, nodes) = (pairs * candidates, nodes * candidates);
+        let apart = scenario.motion.depends_on_destination();
+        let columns = if apart { 2.0 * states * destinations.len() as f64 * candidates } else { 0.0 };
+        let table = match method {
+            // of a filter of the state and the endpoint
+            Method::Bridging => (2.0 * states + 1.0) * pairs + 4.0 * states * states * nodes,
+            Method::PseudoObservation if !apart => 0.0,
+            _ => pairs,
+        };
+        let saved = columns + if method.accumulates() { table } else { 0.0 };
+        [pairs, nodes, table + columns, saved]
+    }
+}
