@@ -88,6 +88,7 @@ export interface StepModel {
  */
 export class ConditionallyMarkovSequence {
   #engine: SequenceEngine | null;
+  #measured = 0;
 
   /**
    * @param parameters - The whole sequence. It is copied: changing the object later changes nothing.
@@ -137,7 +138,8 @@ export class ConditionallyMarkovSequence {
    */
   measure(step: number, position: Vector): void {
     const given = handed({ step, position });
-    this.#asked().measure(given);
+    // the list of measurements, which from time to time is moved to where there is twice the room
+    this.#asked(256 * ++this.#measured).measure(given);
   }
 
   /**
@@ -159,6 +161,7 @@ export class ConditionallyMarkovSequence {
   /** Forgets all measurements. */
   reset(): void {
     this.#live().reset();
+    this.#measured = 0;
   }
 
   /**

@@ -34,18 +34,21 @@ export function instantiatedNow(module: WebAssembly.Module, side: Side): WebAsse
 export function begin<E extends object>(instance: WebAssembly.Instance, side: Side): E {
   const exports = { ...instance.exports };
   for (const [name, item] of Object.entries(exports)) {
-    if (typeof item === "function") exports[name] = guarded(item as (...args: unknown[]) => unknown);
+    if (typeof item === "function") exports[name] = guarded(item as Call);
   }
   side.__wbg_set_wasm(exports);
   (exports as { __wbindgen_start?(): void }).__wbindgen_start?.();
   return exports as E;
 }
 
-/** WebAssembly asks for memory before it does anything (`src/wasm/room.rs`): what it runs out of all the same has a code, too. */
-function guarded(call: (...args: unknown[]) => unknown): (...args: unknown[]) => unknown {
-  return (...args) => {
+/** What WebAssembly exports takes six values at most; what is beyond its own it does not look at. */
+type Call = (...values: [unknown, unknown, unknown, unknown, unknown, unknown]) => unknown;
+
+/** Memory is asked for before a call takes it (`js/room.ts`): where it runs out all the same, or the stack does, that has a code, too. */
+function guarded(call: Call): Call {
+  return (a, b, c, d, e, f) => {
     try {
-      return call(...args);
+      return call(a, b, c, d, e, f);
     } catch (error) {
       throw new WhitherError("too-large", "", `WebAssembly ran out of memory or of stack: ${reason(error)}`, { cause: error });
     }
