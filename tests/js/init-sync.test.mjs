@@ -74,3 +74,11 @@ for (const [name, load] of Object.entries(ways)) {
     assert.equal(answer, "b");
   });
 }
+
+test("the generated code hands over no more values than are passed on", () => {
+  for (const name of ["whither", "pointing", "study"]) {
+    const code = readFileSync(new URL(`../../js/generated/${name}.js`, import.meta.url), "utf8");
+    const counts = [...code.matchAll(/\bwasm\.\w+\(([^()]*)\)/g)].map(([, values]) => values.split(",").filter((value) => value.trim() !== "").length);
+    assert.ok(counts.length > 0 && Math.max(...counts) <= 6, `${name}: ${Math.max(...counts)} values; js/start.ts passes on 6`);
+  }
+});
