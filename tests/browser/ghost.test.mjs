@@ -1,27 +1,18 @@
 // The ghost, on a clock that the test moves.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
-import { launch, serve } from "./support.mjs";
+import { describe, it } from "node:test";
+import { hosted, serve } from "./support.mjs";
 
 describe("ghost", () => {
-  let host, browser;
-
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
+  const site = hosted();
 
   /** A page whose clock stands still unless `page.clock.runFor` moves it. */
   async function fresh(options) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+    const context = await site.browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
     const page = await context.newPage();
     await page.clock.install({ time: 0 });
     await page.clock.pauseAt(1000);
-    await page.goto(host.url);
+    await page.goto(site.url);
     await page.waitForFunction(() => document.querySelector("#none").textContent !== "–", null, { polling: 50 });
     return { page, seen: () => page.locator("#ghost").isVisible(), close: () => context.close() };
   }

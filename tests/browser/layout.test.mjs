@@ -1,7 +1,7 @@
 // Where icons and pixels change without an event that says so: a transform on an ancestor, another resolution.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
-import { head, launch, mouse, nextFrame, open, serve } from "./support.mjs";
+import { describe, it } from "node:test";
+import { head, hosted, mouse, nextFrame, open } from "./support.mjs";
 
 /** Styles that move the icons after the page has loaded, and resize nothing. */
 const MOVES = [
@@ -16,20 +16,11 @@ const canvases = (page) =>
   );
 
 describe("layout", () => {
-  let host, browser;
-
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
+  const site = hosted();
 
   for (const [name, selector, style] of MOVES) {
     it(`follows ${name}`, async () => {
-      const { page, sins, close } = await open(browser, host.url);
+      const { page, sins, close } = await open(site.browser, site.url);
       await page.evaluate(([selector, style]) => document.querySelector(selector).style.cssText += style, [selector, style]);
       const hand = await mouse(page);
       for (const [from, to] of [["media", "tyres"], ["fuel", "navigation"], ["help", "phone"]]) {
@@ -42,7 +33,7 @@ describe("layout", () => {
   }
 
   it("begins again where the method accumulates and the icons have moved", async () => {
-    const { page, sins, close } = await open(browser, host.url);
+    const { page, sins, close } = await open(site.browser, site.url);
     await page.locator(".controls summary").click();
     await page.locator("select[name=method]").selectOption("algorithm1");
     const hand = await mouse(page);
@@ -57,7 +48,7 @@ describe("layout", () => {
   for (const path of ["", "sequences/index.html"]) {
     it(`draws as finely as the screen shows, on /${path}`, async () => {
       const ready = path === "" ? undefined : { path, ready: () => document.querySelector("#so-far").textContent.includes("of") };
-      const { page, sins, close } = await open(browser, host.url, {}, ready);
+      const { page, sins, close } = await open(site.browser, site.url, {}, ready);
       const session = await page.context().newCDPSession(page);
       for (const [step, deviceScaleFactor] of [2, 1.5, 1].entries()) {
         // Chromium tells the page of an emulated resolution only together with another size; this one resizes nothing on it

@@ -1,7 +1,7 @@
 // How the page looks to whoever comes: before the first paint, while it loads, with large text, with the system's own colours.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
-import { head, launch, mouse, open, serve, shifts } from "./support.mjs";
+import { describe, it } from "node:test";
+import { head, hosted, mouse, open, shifts } from "./support.mjs";
 
 const PAGE = { path: "", ready: () => document.querySelector("#none").textContent !== "–" };
 const SEQUENCES = {
@@ -10,18 +10,9 @@ const SEQUENCES = {
 };
 
 describe("look", () => {
-  let host, browser;
+  const site = hosted();
 
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
-
-  const fresh = (options, where) => open(browser, host.url, options, where);
+  const fresh = (options, where) => open(site.browser, site.url, options, where);
 
   /** Moves and presses, so that every text and number is there. */
   async function press(page) {

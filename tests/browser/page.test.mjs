@@ -1,9 +1,9 @@
 // The page itself: sizes, keyboard, theme, reduced motion, a browser that forbids WebAssembly.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { build } from "esbuild";
 import { movement } from "./hand.mjs";
-import { launch, middles, mouse, open, read, REST, serve } from "./support.mjs";
+import { hosted, middles, mouse, open, read, REST, serve } from "./support.mjs";
 
 const IDS = [
   ["navigation", "phone", "radio", "media", "climate", "seats", "camera"],
@@ -21,18 +21,9 @@ const SIZES = [
 ];
 
 describe("page", () => {
-  let host, browser;
+  const site = hosted();
 
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
-
-  const fresh = (options) => open(browser, host.url, options);
+  const fresh = (options) => open(site.browser, site.url, options);
 
   for (const { width, height, columns } of SIZES) {
     it(`shows 21 icons in ${columns} columns at ${width} x ${height}, and scrolls nothing sideways`, async () => {
@@ -147,8 +138,8 @@ describe("page", () => {
       write: false,
     });
     // Whatever page these lines are put into, its policy is not at stake here.
-    const page = await browser.newPage({ bypassCSP: true });
-    await page.goto(host.url);
+    const page = await site.browser.newPage({ bypassCSP: true });
+    await page.goto(site.url);
     await page.setContent('<button id="left">Left</button><button id="right" style="margin-left: 700px">Right</button>');
     const errors = [];
     page.on("pageerror", (error) => errors.push(error.message));
@@ -163,7 +154,7 @@ describe("page", () => {
 
   it("says in words why it cannot start", async () => {
     const strict = await serve("default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self'");
-    const { page, close } = await open(browser, strict.url);
+    const { page, close } = await open(site.browser, strict.url);
     assert.match((await read(page)).status, /^The predictor could not start: .*wasm-unsafe-eval/);
     await close();
     await strict.close();

@@ -1,8 +1,8 @@
 // The main thing, on the real thing: Chromium's mouse heads for every icon, and the page knows before it is there.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
+import { before, describe, it } from "node:test";
 import { movement } from "./hand.mjs";
-import { head, launch, middles, mouse, open, read, REST, serve } from "./support.mjs";
+import { head, hosted, middles, mouse, open, read, REST } from "./support.mjs";
 
 /** Shares of the screen's width and height; some lie outside of it. */
 const STARTS = [
@@ -15,17 +15,9 @@ const STARTS = [
 ];
 
 describe("pointing", () => {
-  let host, browser, opened;
-
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-    opened = await open(browser, host.url);
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
+  const site = hosted();
+  let opened;
+  before(async () => (opened = await open(site.browser, site.url)));
 
   it("has the right icon on top at 80% of the movement time in at least 95% of the movements", async (test) => {
     const { page, sins } = opened;
@@ -95,7 +87,7 @@ describe("pointing", () => {
 
   for (const [name, rest] of [["a hover of 120 ms", 0.12], ["a rest", 0.5]]) {
     it(`does not lose a right prediction to ${name} before the press, nor to a hand that settles`, async () => {
-      const { page, close } = await open(browser, host.url);
+      const { page, close } = await open(site.browser, site.url);
       const hand = await mouse(page);
       const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
       await hand.rest(rest);
@@ -110,7 +102,7 @@ describe("pointing", () => {
   }
 
   it("shows in every frame a sentence that fits the ring, and rows in the order of their numbers", async () => {
-    const { page, close } = await open(browser, host.url);
+    const { page, close } = await open(site.browser, site.url);
     await page.evaluate(() => {
       window.frames = [];
       const number = (text) => ({ "<1%": 0.5, ">99%": 99.5 })[text] ?? Number.parseInt(text, 10);
@@ -137,7 +129,7 @@ describe("pointing", () => {
   });
 
   it("keeps the light for most of a second after a press, then lets it fade", async () => {
-    const { page, close } = await open(browser, host.url);
+    const { page, close } = await open(site.browser, site.url);
     const hand = await mouse(page);
     const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
     await page.evaluate(() => {
@@ -194,6 +186,28 @@ describe("pointing", () => {
     for (const [index, icon] of shown[0].icons.entries()) {
       assert.ok(Math.abs(icon.probability - shown[1].icons[index].probability) < 0.02, `${icon.id}: ${icon.probability}, ${shown[1].icons[index].probability}`);
     }
+  });
+
+  it("ends the movement where the page is hidden, and begins another when it is seen again", async () => {
+    const { page, sins, close } = await open(site.browser, site.url);
+    const hand = await mouse(page);
+    const { shown } = await head(page, hand, "fuel", "seats", { seed: 5 });
+    assert.ok(shown.top.probability >= 0.8, `${shown.top.id} ${shown.top.probability}`);
+    await page.evaluate(() => {
+      Object.defineProperty(document, "hidden", { value: true, configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+      delete document.hidden;
+    });
+    const hidden = await read(page);
+    assert.deepEqual(hidden.icons.filter((icon) => icon.predicted), []);
+    assert.ok(hidden.icons.every((icon) => Math.abs(icon.probability - hidden.icons[0].probability) < 1e-4));
+    // at once, without a rest: what went before would speak for the seats
+    const icons = await middles(page);
+    const [seats, trip] = ["seats", "trip"].map((id) => icons.find((icon) => icon.id === id));
+    await hand.play(movement(seats, trip, Math.min(trip.width, trip.height), { seed: 2 }));
+    assert.equal((await read(page)).top.id, "trip");
+    assert.deepEqual(sins, []);
+    await close();
   });
 
   it("starts afresh after a rest", async () => {

@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { after, before, describe, it } from "node:test";
-import { launch, middles, mouse, open, read, REST, serve } from "./support.mjs";
+import { describe, it } from "node:test";
+import { hosted, middles, mouse, open, read, REST } from "./support.mjs";
 
 const DATA = process.env.RECORDINGS ?? "";
 const SETS = [
@@ -17,19 +17,10 @@ const absent = SETS.map(([name]) => name).filter((name) => !existsSync(join(DATA
 const skip = absent.length > 0 && `RECORDINGS names no folder that has the recorded tracks ${absent.join(", ")}`;
 
 describe("recorded hands", { skip }, () => {
-  let host, browser;
-
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
+  const site = hosted();
 
   it("are understood: 50 tracks, each moved by a similarity to the pair of icons that it is nearest to in length and angle", async (test) => {
-    const { page, sins, close } = await open(browser, host.url);
+    const { page, sins, close } = await open(site.browser, site.url);
     const hand = await mouse(page);
     const icons = await middles(page);
     let rightAtPress = 0;

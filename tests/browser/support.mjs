@@ -1,9 +1,11 @@
 // What the browser tests share: the built page on a static host, and hands that move Chromium's real pointer.
+import { after, before } from "node:test";
+import { launch } from "../../scripts/chromium.mjs";
 import { serve as serveFolder } from "../../scripts/serve.mjs";
 import { folder } from "../../scripts/build-demo.mjs";
 import { movement } from "./hand.mjs";
 
-export { launch } from "../../scripts/chromium.mjs";
+export { launch };
 
 /** Nothing from elsewhere, nothing inline; WebAssembly is all that the package asks for. */
 const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; font-src 'self'; img-src 'self'";
@@ -11,6 +13,22 @@ const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-
 /** Serves the built page from a sub-path, as on any shared static host. */
 export function serve(policy = POLICY) {
   return serveFolder(folder, { path: "/some/where/", headers: { "content-security-policy": policy } });
+}
+
+/** The page's address and a browser, from before the first test of the group in which this is called until after its last. */
+export function hosted() {
+  const site = {};
+  let host;
+  before(async () => {
+    host = await serve();
+    site.url = host.url;
+    site.browser = await launch();
+  });
+  after(async () => {
+    await site.browser?.close();
+    await host?.close();
+  });
+  return site;
 }
 
 /** The car's screen: ready once it believes something. */

@@ -1,23 +1,14 @@
 // A finger on a phone: it scrolls the page, a tap presses, and sideways it points.
 import assert from "node:assert/strict";
-import { after, before, describe, it } from "node:test";
-import { drag, launch, middles, open, read, serve } from "./support.mjs";
+import { describe, it } from "node:test";
+import { drag, hosted, middles, open, read } from "./support.mjs";
 
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
 describe("touch", () => {
-  let host, browser;
+  const site = hosted();
 
-  before(async () => {
-    host = await serve();
-    browser = await launch();
-  });
-  after(async () => {
-    await browser.close();
-    await host.close();
-  });
-
-  const fresh = () => open(browser, host.url, PHONE);
+  const fresh = () => open(site.browser, site.url, PHONE);
 
   /** What a press would have changed. */
   const presses = (page) =>

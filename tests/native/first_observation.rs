@@ -1,7 +1,7 @@
 //! `initial.evidence`: what the first observation says of the destination, `p(y_1 | D_i, T)` in Liang (5), counts in every method.
 
 use crate::batch::Batch;
-use crate::problem::{Problem, choices, random};
+use crate::problem::{Problem, apart, choices, random};
 use crate::support::{numbers, predictor, relative};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
@@ -71,17 +71,8 @@ proptest! {
         let default = choice.problem();
         let problem = counting(&default);
         for family in [&PSEUDO[..], &INDEPENDENT] {
-            let mut predictors: Vec<Predictor> = family.iter().map(|method| problem.predictor(method)).collect();
-            for observed in &problem.observations {
-                predictors.iter_mut().for_each(|predictor| observed.by(predictor));
-                let (first, others) = predictors.split_first_mut().unwrap();
-                for (other, method) in others.iter_mut().zip(&family[1..]) {
-                    let apart = relative(other.log_likelihoods(), first.log_likelihoods());
-                    prop_assert!(apart < 1e-8, "{method}: {apart:e}");
-                    let apart = relative(other.probabilities(), first.probabilities());
-                    prop_assert!(apart < 1e-8, "{method}: {apart:e}");
-                }
-            }
+            let apart = apart(&problem, family);
+            prop_assert!(apart < 1e-8, "{family:?}: {apart:e}");
         }
         for method in INDEPENDENT {
             let (mut with, mut without) = (problem.followed(method), default.followed(method));

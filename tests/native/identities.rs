@@ -1,11 +1,10 @@
 //! Identities between the methods, and invariances, over random models, steps and endpoints.
 
 use crate::batch::Batch;
-use crate::problem::{Choice, Draw, KINDS, choices, random};
+use crate::problem::{Choice, Draw, KINDS, apart, choices, random};
 use crate::support::relative;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
-use whither::Predictor;
 
 proptest! {
     #![proptest_config(random(300))]
@@ -15,18 +14,8 @@ proptest! {
     fn methods_of_a_family_are_the_same(choice in choices()) {
         let problem = choice.problem();
         for family in [&["pseudoObservation", "algorithm1", "algorithm2"][..], &["singleFilter", "bridging"]] {
-            let mut predictors: Vec<Predictor> = family.iter().map(|method| problem.predictor(method)).collect();
-            for observed in &problem.observations {
-                predictors.iter_mut().for_each(|predictor| observed.by(predictor));
-                let (first, others) = predictors.split_first_mut().unwrap();
-                for (other, method) in others.iter_mut().zip(&family[1..]) {
-                    let apart = relative(other.log_likelihoods(), first.log_likelihoods());
-                    prop_assert!(apart < 1e-9, "{method}: {apart:e}");
-                    let apart = relative(other.probabilities(), first.probabilities());
-                    prop_assert!(apart < 1e-9, "{method}: {apart:e}");
-                    prop_assert_eq!(other.expired(), first.expired());
-                }
-            }
+            let apart = apart(&problem, family);
+            prop_assert!(apart < 1e-9, "{family:?}: {apart:e}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Random problems: any motion model, one to three dimensions, endpoints and arrival priors of all kinds, tracks with missing
 //! axes, equal times and noise of their own.
 
-use crate::support::value;
+use crate::support::{relative, value};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::{Value as Json, json};
@@ -228,6 +228,22 @@ impl Problem {
         }
         predictor
     }
+}
+
+/// How far the methods of a family are apart at most, over all observations, in log likelihoods and probabilities.
+pub fn apart(problem: &Problem, family: &[&str]) -> f64 {
+    let mut predictors: Vec<Predictor> = family.iter().map(|method| problem.predictor(method)).collect();
+    let mut most = 0.0f64;
+    for observed in &problem.observations {
+        predictors.iter_mut().for_each(|predictor| observed.by(predictor));
+        let (first, others) = predictors.split_first_mut().unwrap();
+        for other in others {
+            most = most.max(relative(other.log_likelihoods(), first.log_likelihoods()));
+            most = most.max(relative(other.probabilities(), first.probabilities()));
+            assert_eq!(other.expired(), first.expired());
+        }
+    }
+    most
 }
 
 impl Observed {

@@ -161,7 +161,19 @@ pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use super::area_under_curve;
+    use super::{Answers, Sums, area_under_curve};
+
+    #[test]
+    fn what_is_not_before_or_after_the_interval_is_within_it() {
+        let mut sums = Sums::default();
+        // ten samples that are off by 3 s together, two of them before the interval and three after it; and none
+        for when in [[4.0, 1.0, 2.0, 0.0], [6.0, 2.0, 0.0, 3.0], [0.0; 4]] {
+            sums.add(&Answers { when, ..Answers::default() });
+        }
+        let row = sums.row();
+        let expected = [0.3, (0.25 + 1.0 / 3.0) / 2.0, 0.5, 0.2, 0.3];
+        assert!(row.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12), "{row:?}");
+    }
 
     #[test]
     fn the_area_counts_pairs_in_the_right_order() {
