@@ -14,7 +14,7 @@ const generated = "js/generated";
 
 /** Each module: its name, the features that make it, and the name of its bytes. */
 export const modules = [
-  { name: "whither", features: ["papers", "wasm"], bytes: "bytes" },
+  { name: "whither", features: ["wasm"], bytes: "bytes" },
   { name: "pointing", features: ["wasm"], bytes: "pointing-bytes" },
   { name: "study", features: ["wasm-fit"], bytes: "study-bytes" },
 ];
@@ -68,7 +68,7 @@ async function toWasm({ name, features }, file) {
     `--remap-path-prefix=${sysroot}=rust`,
     `--remap-path-prefix=${root}=`,
   ];
-  const parts = ["--no-default-features", "--features", features.join()];
+  const parts = ["--features", features.join()];
   const args = ["build", "--lib", ...parts, "--target", target, "--profile", "wasm", "--target-dir", "target"];
   await compile(`compiling ${name} to WebAssembly`, args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
   mkdirSync(join(root, file, ".."), { recursive: true });

@@ -21,9 +21,6 @@ const parts = {
     const packages = ["--workspace", "--exclude", "xtask"];
     await check("cargo", ["clippy", ...packages, "--all-targets", "--", "-D", "warnings"]);
     await check("cargo", ["clippy", ...wasmTarget, "--features", "wasm,wasm-fit", "--lib", "--", "-D", "warnings"]);
-    // the pointing model alone, as whither/pointing has it
-    const alone = ["--no-default-features", "--features", "wasm"];
-    await check("cargo", ["clippy", ...wasmTarget, ...alone, "--lib", "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
     await tests("cargo", ["test", "--package", "whither", "--features", "fit"]);
     await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);

@@ -43,7 +43,6 @@
 //!
 //! | feature | what | by default |
 //! |---|---|---|
-//! | `papers` | the methods of the papers, every motion model, the sequences; without it a scenario's `method` is `"pointing"` | on |
 //! | `fit` | [`study`]'s learning of a scenario's constants from recorded movements | off |
 //! | `wasm`, `wasm-fit` | the classes of the npm package, for its own build | off |
 //!
@@ -105,8 +104,6 @@
 //! - Ardeshiri, Table 1, line 12: `(I - K C) P`, not `(I - K) P`.
 //! - Rezaie and Li (12): the `x_k` on the right-hand side is `x_{k-1}`.
 #![forbid(unsafe_code)]
-// What only the methods of the papers use stays in the sources of a build without them, and is left out by the linker.
-#![cfg_attr(not(feature = "papers"), allow(dead_code))]
 
 pub mod conditionally_markov;
 pub mod error;
@@ -119,6 +116,8 @@ pub mod model;
 
 pub mod likelihood;
 pub mod posterior;
+
+pub mod pointing;
 
 pub mod scenario;
 

@@ -13,7 +13,7 @@ use crate::model::habits::Habits;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
-use crate::value::{Node, Value, number, say};
+use crate::value::{Node, Value, number};
 use std::sync::Arc;
 use track::Observed;
 pub(crate) use track::Track;
@@ -156,14 +156,14 @@ impl Predictor {
             return Ok(());
         };
         if time < track.time {
-            let message = say!("must be at least the last observation's, ", number(track.time), ", got ", number(time));
+            let message =
+                format!("must be at least the last observation's, {}, got {}", number(track.time), number(time));
             return Err(Error::new(Code::TimeNotIncreasing, "time", message));
         }
         if time - track.first_time > MAX_TIME {
-            let message = say!(
-                "must be at most 1e12 seconds after the first observation's, ",
+            let message = format!(
+                "must be at most 1e12 seconds after the first observation's, {}, got {}",
                 number(track.first_time),
-                ", got ",
                 number(time)
             );
             return Err(Error::new(Code::OutOfRange, "time", message));
@@ -327,7 +327,7 @@ impl Predictor {
         let only = self.destinations.index_of(id)?;
         let mut path = Vec::with_capacity(times.len() * self.dimensions());
         for (i, &time) in times.iter().enumerate() {
-            let later = self.after_last(&say!("times[", i, "]"), time)?;
+            let later = self.after_last(&format!("times[{i}]"), time)?;
             let state =
                 later.and_then(|later| self.state_after(later, Some(only)).or_else(|| self.state_after(later, None)));
             if let Some(state) = state {
@@ -342,11 +342,11 @@ impl Predictor {
         let Some(track) = &self.track else { return Ok(None) };
         if time < track.time {
             let last = number(track.time);
-            let message = say!("must be at least the last observation's time, ", last, ", got ", number(time));
+            let message = format!("must be at least the last observation's time, {last}, got {}", number(time));
             return Err(Error::new(Code::OutOfRange, path, message));
         }
         if time - track.time > MAX_TIME {
-            let message = say!("must be at most 1e12 seconds after the last observation, got ", number(time));
+            let message = format!("must be at most 1e12 seconds after the last observation, got {}", number(time));
             return Err(Error::new(Code::OutOfRange, path, message));
         }
         Ok(Some(time - track.time))
@@ -398,5 +398,5 @@ fn check_time(path: &str, time: f64) -> Result<()> {
     if time.is_finite() {
         return Ok(());
     }
-    Err(Error::new(Code::NotFinite, path, say!("must be a finite number, got ", number(time))))
+    Err(Error::new(Code::NotFinite, path, format!("must be a finite number, got {}", number(time))))
 }

@@ -15,9 +15,8 @@
 //! ```
 
 use crate::error::{Code, Error, Result};
+use crate::likelihood::Method;
 use crate::likelihood::plan::Plan;
-use crate::likelihood::pointing::parameters::Parameters;
-use crate::likelihood::{Method, Papers};
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
@@ -26,7 +25,8 @@ use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
-use crate::value::{Fields, Node, Value, say};
+use crate::pointing::parameters::Parameters;
+use crate::value::{Fields, Node, Value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -100,8 +100,6 @@ pub enum Engine {
         arrival: Arrival,
         /// How the arrival time is summed over.
         quadrature: Quadrature,
-        /// That such a method is part of this build.
-        built: Papers,
     },
     /// The pointing model.
     Pointing(Arc<Parameters>),
@@ -133,7 +131,7 @@ impl Scenario {
     fn check(&self) -> Result<()> {
         if !(0.0..1.0).contains(&self.none) {
             let none = Value::Number(self.none);
-            let message = say!("must be at least 0 and less than 1, got ", none.quoted());
+            let message = format!("must be at least 0 and less than 1, got {}", none.quoted());
             return Err(Error::new(Code::OutOfRange, "none", message));
         }
         let Engine::Papers { method, arrival, .. } = &self.engine else { return Ok(()) };
@@ -165,7 +163,7 @@ impl Scenario {
         let own = |i: &usize| destinations.kind(*i).arrival().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
-                .refuse_accumulating(&say!("destinations[", i, "].arrival"), "a horizon moves with every observation"),
+                .refuse_accumulating(&format!("destinations[{i}].arrival"), "a horizon moves with every observation"),
             None => Ok(()),
         }
     }
@@ -189,19 +187,11 @@ impl Scenario {
         if needed <= MOST_NUMBERS {
             return Ok(());
         }
-        let message = say!(
-            count,
-            " destinations with ",
-            nodes,
-            " arrival times together, under ",
+        let message = format!(
+            "{count} destinations with {nodes} arrival times together, under {} noise candidates, need {needed} numbers \
+             with \"{}\", the most is {MOST_NUMBERS}",
             self.motion.candidates.len(),
-            " noise candidates, need ",
-            needed,
-            " numbers \
-             with \"",
-            method.name(),
-            "\", the most is ",
-            MOST_NUMBERS
+            method.name()
         );
         Err(Error::new(Code::TooLarge, "destinations", message))
     }
@@ -217,13 +207,10 @@ impl Scenario {
         if !self.motion.candidates.iter().any(|c| Endpoint::after(c.model.as_ref(), 1.0, length).is_singular()) {
             return Ok(());
         }
-        let message = say!(
-            "must reach each of the endpoint's ",
-            length,
-            " components: with \"",
-            method.name(),
-            "\" the endpoint does not depend on the start, \
-             so noise must lead to it; \"pseudoObservation\", \"algorithm1\" and \"algorithm2\" can do without"
+        let message = format!(
+            "must reach each of the endpoint's {length} components: with \"{}\" the endpoint does not depend on the start, \
+             so noise must lead to it; \"pseudoObservation\", \"algorithm1\" and \"algorithm2\" can do without",
+            method.name()
         );
         Err(Error::new(Code::NotPositiveDefinite, "motion.diffusion", message))
     }
@@ -237,12 +224,10 @@ impl Scenario {
         if !method.accumulates() {
             return Ok(());
         }
-        let message = say!(
-            why,
-            ", but \"",
-            method.name(),
-            "\" accumulates evidence for each destination and arrival time; \"pseudoObservation\", \
-             \"singleFilter\" and \"singleFilterApproximate\" do not"
+        let message = format!(
+            "{why}, but \"{}\" accumulates evidence for each destination and arrival time; \"pseudoObservation\", \
+             \"singleFilter\" and \"singleFilterApproximate\" do not",
+            method.name()
         );
         Err(Error::new(Code::MethodAccumulates, path, message))
     }
@@ -288,16 +273,11 @@ const POINTING: &str = "pointing";
 
 impl Engine {
     fn read(fields: &Fields<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
-        let (given, pointing) = (fields.optional("method"), (POINTING, None));
-        let method = match Papers::built() {
-            Some(built) => {
-                let mut words = Method::NAMES.map(|(name, method)| (name, Some((method, built)))).to_vec();
-                words.push(pointing);
-                given.map_or(Ok(Some((Method::PseudoObservation, built))), |given| given.word(&words))?
-            }
-            None => fields.required("method")?.word(&[pointing])?,
-        };
-        let Some((method, built)) = method else {
+        let mut words = Method::NAMES.map(|(name, method)| (name, Some(method))).to_vec();
+        words.push((POINTING, None));
+        let method = fields.optional("method");
+        let method = method.map_or(Ok(Some(Method::PseudoObservation)), |method| method.word(&words))?;
+        let Some(method) = method else {
             for key in ["arrival", "quadrature"] {
                 if let Some(extra) = fields.optional(key) {
                     return Err(extra.error(Code::UnknownKey, "has no place with the method \"pointing\""));
@@ -316,7 +296,7 @@ impl Engine {
         let arrival = Arrival::read(&fields.required("arrival")?)?;
         let quadrature =
             fields.optional("quadrature").map_or_else(|| Ok(Quadrature::default()), |q| Quadrature::read(&q))?;
-        Ok(Self::Papers { method, arrival, quadrature, built })
+        Ok(Self::Papers { method, arrival, quadrature })
     }
 
     /// The arrival nodes of destinations, where a method of the papers needs them.
@@ -342,7 +322,7 @@ fn check_for_pointing(destinations: &Destinations) -> Result<()> {
             if found {
                 let message =
                     "the method \"pointing\" knows positions alone as endpoints, and arrival nodes of its own";
-                return Err(Error::new(Code::UnknownKey, say!("destinations[", i, "].", key), message));
+                return Err(Error::new(Code::UnknownKey, format!("destinations[{i}].{key}"), message));
             }
         }
     }

@@ -1,11 +1,12 @@
 //! Snapshots: a predictor as plain data, versioned and sealed, from which what follows is identical to the bit.
 
 use crate::error::{Code, Error, Result};
-use crate::math::order::checksum;
 use crate::model::habits::Habits;
 use crate::predictor::{Predictor, Track};
 use crate::scenario::Scenario;
-use crate::value::{Node, Value, number, say};
+use crate::value::{Node, Value, number};
+use fnv::FnvHasher;
+use std::hash::Hasher;
 use std::sync::Arc;
 
 /// The form of a snapshot. It changes whenever an older reader could misunderstand a newer snapshot.
@@ -51,13 +52,16 @@ impl Predictor {
         let bad = |path: String, message: String| Error::new(Code::BadSnapshot, path, message);
         let kind = node.get("whither").map(|kind| kind.value().clone());
         if kind != Some(Value::text("snapshot")) {
-            return Err(bad("snapshot".to_owned(), say!("must be what snapshot() returned, got ", snapshot.quoted())));
+            return Err(bad(
+                "snapshot".to_owned(),
+                format!("must be what snapshot() returned, got {}", snapshot.quoted()),
+            ));
         }
         match node.get("version").map(|version| version.value()) {
             Some(Value::Number(version)) if *version == VERSION => {}
             other => {
                 let found = other.map_or_else(|| "nothing".to_owned(), Value::quoted);
-                let message = say!("must be ", number(VERSION), ", the version that this build writes, got ", found);
+                let message = format!("must be {}, the version that this build writes, got {found}", number(VERSION));
                 return Err(bad("snapshot.version".to_owned(), message));
             }
         }
@@ -90,7 +94,7 @@ impl Predictor {
 fn seal(body: &Value) -> Value {
     let mut words = Vec::new();
     body.bits(&mut words);
-    let sum = checksum(&words);
-    let digit = |place: u32| char::from_digit((sum >> (4 * place)) as u32 & 15, 16);
-    Value::Text((0..16).rev().filter_map(digit).collect())
+    let mut hasher = FnvHasher::default();
+    words.iter().for_each(|word| hasher.write(&word.to_le_bytes()));
+    Value::Text(format!("{:016x}", hasher.finish()))
 }

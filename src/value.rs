@@ -8,12 +8,10 @@ use crate::error::{Code, Error, Result};
 
 mod fields;
 mod quote;
-pub(crate) mod say;
 mod serial;
 
 pub use fields::Fields;
 pub use quote::{number, quote};
-pub(crate) use say::{Part, say};
 
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
 /// the smallest deviation: what is computed from such numbers stays finite.
@@ -176,7 +174,7 @@ impl<'a> Node<'a> {
                 path.push_str(key);
             }
             Step::Index(i) => {
-                path += &say!("[", i, "]");
+                path += &format!("[{i}]");
             }
         }
         path
@@ -185,7 +183,7 @@ impl<'a> Node<'a> {
     /// An error about this value: `"must be positive"` becomes `"must be positive, got -3"`.
     #[must_use]
     pub fn error(&self, code: Code, must: &str) -> Error {
-        Error::new(code, self.path(), say!(must, ", got ", self.value.quoted()))
+        Error::new(code, self.path(), format!("{must}, got {}", self.value.quoted()))
     }
 
     /// This value as an object that may have the `legal` keys only.
@@ -200,11 +198,11 @@ impl<'a> Node<'a> {
             let path = || Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
             if !legal.contains(&key.as_str()) {
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
-                let message = say!("unknown key ", quote(key), ", expected one of ", legal.join(", "));
+                let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
                 return Err(Error::new(Code::UnknownKey, path(), message));
             }
             if entries[..i].iter().any(|(before, _)| before == key) {
-                return Err(Error::new(Code::UnknownKey, path(), say!("the key ", quote(key), " is there twice")));
+                return Err(Error::new(Code::UnknownKey, path(), format!("the key {} is there twice", quote(key))));
             }
         }
         Ok(Fields { entries, node: self })
@@ -280,7 +278,7 @@ impl<'a> Node<'a> {
     /// As [`Node::number`], `out-of-range`, `too-large`.
     pub fn whole(&self, low: usize, high: usize) -> Result<usize> {
         let x = self.number()?;
-        let must = || say!("must be a whole number from ", low, " to ", high);
+        let must = || format!("must be a whole number from {low} to {high}");
         if x.fract() != 0.0 || x < low as f64 {
             return Err(self.error(Code::OutOfRange, &must()));
         }
@@ -315,7 +313,7 @@ impl<'a> Node<'a> {
     pub fn exact_numbers(&self, length: usize) -> Result<Vec<f64>> {
         let items = self.items()?;
         if items.len() != length {
-            let must = say!("must have ", length, " numbers, has ", items.len());
+            let must = format!("must have {length} numbers, has {}", items.len());
             return Err(self.error(Code::WrongLength, &must));
         }
         self.numbers(|item| item.exact())
@@ -340,7 +338,7 @@ impl<'a> Node<'a> {
         let text = self.text()?;
         words.iter().find(|(word, _)| *word == text).map(|(_, item)| *item).ok_or_else(|| {
             let legal: Vec<String> = words.iter().map(|(word, _)| quote(word)).collect();
-            self.error(Code::OutOfRange, &say!("must be one of ", legal.join(", ")))
+            self.error(Code::OutOfRange, &format!("must be one of {}", legal.join(", ")))
         })
     }
 
@@ -368,7 +366,7 @@ impl<'a> Node<'a> {
         match length {
             Some(n) if items.len() != n => {
                 let found = items.len();
-                Err(self.error(Code::WrongLength, &say!("must have ", n, " numbers, has ", found)))
+                Err(self.error(Code::WrongLength, &format!("must have {n} numbers, has {found}")))
             }
             _ => self.numbers(|item| item.number()),
         }
@@ -397,7 +395,7 @@ impl<'a> Node<'a> {
             self.numbers(check)
         } else {
             if !matches!(self.value, Value::Number(_)) {
-                let must = say!("must be a number or a list of ", axes, " numbers, one for each axis");
+                let must = format!("must be a number or a list of {axes} numbers, one for each axis");
                 return Err(self.error(Code::WrongType, &must));
             }
             check(self).map(|x| vec![x; axes])
@@ -411,7 +409,7 @@ impl<'a> Node<'a> {
     pub fn matrix(&self, rows: usize, columns: usize) -> Result<Vec<f64>> {
         let items = self.items()?;
         if items.len() != rows {
-            let must = say!("must have ", rows, " rows of ", columns, " numbers, has ", items.len(), " rows");
+            let must = format!("must have {rows} rows of {columns} numbers, has {} rows", items.len());
             return Err(self.error(Code::WrongLength, &must));
         }
         let mut matrix = Vec::with_capacity(rows * columns);

@@ -8,7 +8,6 @@ use super::model::{Model, StepModel};
 use crate::error::Result;
 use crate::math::gaussian::{Gaussian, condition, symmetrise};
 use crate::math::kalman::Measurement;
-use crate::math::product::{apply, product, product_transposed};
 use nalgebra::{DMatrix, DVector};
 
 /// The density of the state now and of the pinned states ahead, given the measurements so far.
@@ -56,9 +55,9 @@ impl Filter {
         let p = &mut self.joint.covariance;
         let size = p.nrows();
         let block = |first: usize| p.rows(first, s).into_owned();
-        let mut rows = product(&model.previous, &block(0)) + product(&model.destination, &block(s));
-        let mut now = product_transposed(&rows.columns(0, s).into_owned(), &model.previous)
-            + product_transposed(&rows.columns(s, s).into_owned(), &model.destination)
+        let mut rows = &model.previous * block(0) + &model.destination * block(s);
+        let mut now = rows.columns(0, s) * model.previous.transpose()
+            + rows.columns(s, s) * model.destination.transpose()
             + &model.covariance;
         symmetrise(&mut now);
         rows.columns_mut(0, s).copy_from(&now);
@@ -66,7 +65,7 @@ impl Filter {
         p.view_mut((s, 0), (size - s, s)).tr_copy_from(&rows.columns(s, size - s));
         let mean = &mut self.joint.mean;
         let block = |first: usize| mean.rows(first, s).into_owned();
-        let moved = apply(&model.previous, &block(0)) + apply(&model.destination, &block(s)) + &model.offset;
+        let moved = &model.previous * block(0) + &model.destination * block(s) + &model.offset;
         mean.rows_mut(0, s).copy_from(&moved);
     }
 
@@ -77,8 +76,8 @@ impl Filter {
         matrix.columns_mut(0, s).copy_from(&measurement.matrix);
         // the noise is positive definite, so the prediction error's covariance is
         if let Some(conditioning) = condition(&self.joint.covariance, &matrix, &measurement.noise) {
-            let error = &measurement.value - apply(&matrix, &self.joint.mean);
-            self.joint.mean += apply(&conditioning.gain, &error);
+            let error = &measurement.value - &matrix * &self.joint.mean;
+            self.joint.mean += &conditioning.gain * &error;
             self.joint.covariance = conditioning.covariance();
         }
     }

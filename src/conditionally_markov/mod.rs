@@ -13,7 +13,7 @@
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Measurement;
-use crate::value::{Node, Value, say};
+use crate::value::{Node, Value};
 use std::sync::Arc;
 
 mod filter;
@@ -142,7 +142,7 @@ impl ConditionallyMarkovSequence {
     pub fn measure(&mut self, step: usize, position: &[f64]) -> Result<()> {
         self.model.check_step(step)?;
         if step < self.filter.step {
-            let message = say!("must be at least ", self.filter.step, ", the last measured step, got ", step);
+            let message = format!("must be at least {}, the last measured step, got {step}", self.filter.step);
             return Err(Error::new(Code::TimeNotIncreasing, "step", message));
         }
         let position: Vec<Option<f64>> = position.iter().map(|&x| Some(x)).collect();

@@ -10,12 +10,11 @@
 
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, Gaussian, propagate};
-use crate::math::product::{apply, product};
 use crate::model::arrival::MAX_TIME;
 use crate::model::bridge::Bridge;
 use crate::model::motion::{Motion, MotionModel};
 use crate::model::observation::{ObservationModel, read_covariance};
-use crate::value::{Fields, Node, Value, number, say};
+use crate::value::{Fields, Node, Value, number};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -92,7 +91,7 @@ impl Times {
         let times = Self::read_any(node, steps)?;
         let whole = times.between(0, steps);
         if whole > MAX_TIME {
-            let must = say!("must be at most 1e12 seconds for all steps, they take ", number(whole));
+            let must = format!("must be at most 1e12 seconds for all steps, they take {}", number(whole));
             return Err(node.error(Code::OutOfRange, &must));
         }
         Ok(times)
@@ -155,7 +154,7 @@ impl Model {
         let (pinned, states) = read_boundary(&fields.required("boundary")?)?;
         let between = fields.required("previous")?.items()?.len();
         if between >= MAX_STEPS {
-            let must = say!("must have at most ", MAX_STEPS - 1, " matrices, has ", between);
+            let must = format!("must have at most {} matrices, has {between}", MAX_STEPS - 1);
             return Err(fields.required("previous")?.error(Code::TooLarge, &must));
         }
         let square = |node: &Node<'_>| Ok(DMatrix::from_row_slice(states, states, &node.matrix(states, states)?));
@@ -203,7 +202,7 @@ impl Model {
         if step <= last {
             return Ok(());
         }
-        let message = say!("must be a whole number from 0 to ", last, ", got ", step);
+        let message = format!("must be a whole number from 0 to {last}, got {step}");
         Err(Error::new(Code::OutOfRange, "step", message))
     }
 
@@ -212,12 +211,9 @@ impl Model {
         self.check_step(k)?;
         if self.pins.binary_search(&k).is_ok() {
             let pins: Vec<String> = self.pins.iter().map(|&pin| number(pin as f64)).collect();
-            let message = say!(
-                "must be a step between pins, got ",
-                k,
-                ": the states at ",
-                pins.join(", "),
-                " are drawn first, from their joint density"
+            let message = format!(
+                "must be a step between pins, got {k}: the states at {} are drawn first, from their joint density",
+                pins.join(", ")
             );
             return Err(Error::new(Code::OutOfRange, "step", message));
         }
@@ -239,10 +235,10 @@ impl Model {
             Evolution::Given(steps) => {
                 let (first, others) = (&steps[from], &steps[from + 1..to]);
                 Ok(others.iter().fold(first.clone(), |so_far, next| StepModel {
-                    destination: product(&next.previous, &so_far.destination) + &next.destination,
-                    offset: apply(&next.previous, &so_far.offset) + &next.offset,
+                    destination: &next.previous * &so_far.destination + &next.destination,
+                    offset: &next.previous * &so_far.offset + &next.offset,
                     covariance: propagate(&next.previous, &so_far.covariance, &next.covariance),
-                    previous: product(&next.previous, &so_far.previous),
+                    previous: &next.previous * &so_far.previous,
                 }))
             }
         }
@@ -272,24 +268,24 @@ fn read_motion(node: &Node<'_>) -> Result<Arc<dyn MotionModel>> {
     let motion = Motion::read(node)?;
     if motion.speed_noise.is_some() {
         let message = "speedNoise makes the model nonlinear, a sequence needs a linear one";
-        return Err(Error::new(Code::UnknownKey, say!(node.path(), ".speedNoise"), message));
+        return Err(Error::new(Code::UnknownKey, format!("{}.speedNoise", node.path()), message));
     }
     match motion.candidates.as_slice() {
         [only] => Ok(Arc::clone(&only.model)),
         several => {
-            let message = say!("must be one noise, got ", several.len(), " candidates: a sequence has one model");
-            Err(Error::new(Code::OutOfRange, say!(node.path(), ".noise"), message))
+            let message = format!("must be one noise, got {} candidates: a sequence has one model", several.len());
+            Err(Error::new(Code::OutOfRange, format!("{}.noise", node.path()), message))
         }
     }
 }
 
 fn read_pins(node: &Node<'_>, steps: usize) -> Result<Vec<usize>> {
-    let must = say!("must be ascending whole numbers that begin with 0 and end with steps, ", steps);
+    let must = format!("must be ascending whole numbers that begin with 0 and end with steps, {steps}");
     let pins = node
         .items()?
         .map(|item| match item.value() {
             Value::Number(x) if x.fract() == 0.0 && *x >= 0.0 && *x <= steps as f64 => Ok(*x as usize),
-            Value::Number(_) => Err(item.error(Code::OutOfRange, &say!("must be a whole number from 0 to ", steps))),
+            Value::Number(_) => Err(item.error(Code::OutOfRange, &format!("must be a whole number from 0 to {steps}"))),
             _ => item.whole(0, steps),
         })
         .collect::<Result<Vec<_>>>()?;
@@ -308,7 +304,7 @@ fn read_boundary(node: &Node<'_>) -> Result<(Gaussian, usize)> {
     let destination = fields.required("destinationCovariance")?;
     let s = destination.items()?.len();
     if s == 0 || s > MAX_STATES {
-        return Err(destination.error(Code::WrongLength, &say!("must have 1 to ", MAX_STATES, " rows")));
+        return Err(destination.error(Code::WrongLength, &format!("must have 1 to {MAX_STATES} rows")));
     }
     let c_n = read_covariance(&destination, s)?;
     let g_0 = read_covariance(&fields.required("originCovariance")?, s)?;
@@ -323,7 +319,7 @@ fn read_boundary(node: &Node<'_>) -> Result<(Gaussian, usize)> {
         }
     }
     let mut covariance = DMatrix::zeros(2 * s, 2 * s);
-    let cross = product(&gain, &c_n);
+    let cross = &gain * &c_n;
     covariance.view_mut((0, 0), (s, s)).copy_from(&propagate(&gain, &c_n, &g_0));
     covariance.view_mut((0, s), (s, s)).copy_from(&cross);
     covariance.view_mut((s, 0), (s, s)).tr_copy_from(&cross);
@@ -339,7 +335,7 @@ fn read_boundary(node: &Node<'_>) -> Result<(Gaussian, usize)> {
 fn read_each<T>(node: &Node<'_>, count: usize, read: impl Fn(&Node<'_>) -> Result<T>) -> Result<Vec<T>> {
     let items = node.items()?;
     if items.len() != count {
-        let must = say!("must have ", count, " items, one for each step between the ends, has ", items.len());
+        let must = format!("must have {count} items, one for each step between the ends, has {}", items.len());
         return Err(node.error(Code::WrongLength, &must));
     }
     items.map(|item| read(&item)).collect()

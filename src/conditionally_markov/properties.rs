@@ -11,14 +11,12 @@
 use super::model::{Model, StepModel};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Factor;
-use crate::math::product::product;
-use crate::value::say;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether every equation of Theorem 3.2 holds, with or without `k = 0`, to `tolerance` of the larger side.
 pub(super) fn holds(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
     if !(tolerance.is_finite() && tolerance >= 0.0) {
-        let message = say!("must be at least 0, got ", crate::value::number(tolerance));
+        let message = format!("must be at least 0, got {}", crate::value::number(tolerance));
         return Err(Error::new(Code::OutOfRange, "tolerance", message));
     }
     Ok(between_pins(model, tolerance)? && of_pins(model, and_markov, tolerance)?)
@@ -38,7 +36,7 @@ fn between_pins(model: &Model, tolerance: f64) -> Result<bool> {
             {
                 return Ok(false);
             }
-            next = Some(product(&step.previous.transpose(), &left));
+            next = Some(&step.previous.transpose() * &left);
         }
     }
     Ok(true)
@@ -62,7 +60,7 @@ fn of_pins(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
             let (rows, columns) = (scale.rows(i * s, s).into_owned(), scale.rows(j * s, s).into_owned());
             let agrees = if j == i + 1 {
                 let step = model.step(pins[i] + 1)?;
-                let right = product(&step.previous.transpose(), &towards(&step, pins[i] + 1)?);
+                let right = step.previous.transpose() * &towards(&step, pins[i] + 1)?;
                 agree(&left, &right, &rows, &columns, tolerance)
             } else {
                 // a partial correlation of two pins that no path of the movement explains
@@ -80,7 +78,7 @@ fn of_pins(model: &Model, and_markov: bool, tolerance: f64) -> Result<bool> {
 fn towards(step: &StepModel, k: usize) -> Result<DMatrix<f64>> {
     let factor = Factor::new(step.covariance.clone()).ok_or_else(|| {
         let message = "must be positive definite for the sequence to be nonsingular";
-        Error::new(Code::NotPositiveDefinite, say!("covariance[", k - 1, "]"), message)
+        Error::new(Code::NotPositiveDefinite, format!("covariance[{}]", k - 1), message)
     })?;
     Ok(factor.solve(&step.destination))
 }

@@ -2,9 +2,7 @@
 
 use super::model::Model;
 use crate::error::{Code, Error, Result};
-use crate::math::product::apply;
 use crate::math::random::Random;
-use crate::value::say;
 use nalgebra::{DMatrix, DVector};
 
 /// The most numbers that are drawn at once (80 MB).
@@ -17,7 +15,7 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
     let (s, length) = (model.states, (model.steps() + 1) * model.states);
     let most = MAX_NUMBERS / length;
     if count > most {
-        let message = say!("must be a whole number from 0 to ", most, " for sequences of this length, got ", count);
+        let message = format!("must be a whole number from 0 to {most} for sequences of this length, got {count}");
         return Err(Error::new(Code::TooLarge, "count", message));
     }
     let mut random = Random::new(seed);
@@ -25,7 +23,7 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
     let mut sequences = vec![vec![0.0; length]; count];
     let root = semidefinite_root(&model.pinned.covariance);
     for sequence in &mut sequences {
-        let drawn = &model.pinned.mean + apply(&root, &normal(root.nrows()));
+        let drawn = &model.pinned.mean + &root * normal(root.nrows());
         for (pin, state) in model.pins.iter().zip(drawn.as_slice().chunks(s)) {
             sequence[pin * s..(pin + 1) * s].copy_from_slice(state);
         }
@@ -36,8 +34,8 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
             let root = semidefinite_root(&step.covariance);
             for sequence in &mut sequences {
                 let at = |k: usize| DVector::from_column_slice(&sequence[k * s..(k + 1) * s]);
-                let towards = apply(&step.previous, &at(k - 1)) + apply(&step.destination, &at(pair[1]));
-                let state = towards + &step.offset + apply(&root, &normal(s));
+                let towards = &step.previous * at(k - 1) + &step.destination * at(pair[1]);
+                let state = towards + &step.offset + &root * normal(s);
                 sequence[k * s..(k + 1) * s].copy_from_slice(state.as_slice());
             }
         }

@@ -22,7 +22,6 @@
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
 use crate::math::gaussian::{Factor, condition, propagate};
-use crate::math::product::apply;
 use crate::model::endpoint::Endpoint;
 use crate::value::{Node, Value};
 
@@ -54,9 +53,9 @@ impl Likelihood for Algorithm1 {
             for &i in &node.group.members {
                 let i = i as usize;
                 let predicted = step.predicted.mean(i);
-                let mean = &predicted + apply(&conditioned.gain, &scene.endpoint_error(i, &endpoint, &predicted));
+                let mean = &predicted + &conditioned.gain * scene.endpoint_error(i, &endpoint, &predicted);
                 self.table[scene.plan.rows[i] + node.index] +=
-                    density.log_density(&(&step.measurement.value - apply(observation, &mean)));
+                    density.log_density(&(&step.measurement.value - observation * &mean));
             }
         }
     }

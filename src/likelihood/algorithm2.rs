@@ -25,7 +25,6 @@
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
 use crate::math::gaussian::{Factor, condition, propagate};
-use crate::math::product::{apply, product};
 use crate::model::endpoint::Endpoint;
 use crate::value::{Node, Value};
 use nalgebra::DVector;
@@ -61,19 +60,18 @@ impl Likelihood for Algorithm2 {
             ) else {
                 continue;
             };
-            let prediction =
-                &transition.transition - product(&onward.gain, &product(&rest.matrix, &transition.transition));
+            let prediction = &transition.transition - &onward.gain * (&rest.matrix * &transition.transition);
             let state = propagate(&prediction, &before.covariance(), &onward.covariance());
             let Some(density) = Factor::new(propagate(observation, &state, &step.measurement.noise)) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;
                 let mean = step.before.mean(i);
-                let smoothed = &mean + apply(&before.gain, &scene.endpoint_error(i, &whole, &mean));
+                let smoothed = &mean + &before.gain * scene.endpoint_error(i, &whole, &mean);
                 let moved: DVector<f64> =
-                    apply(&transition.transition, &smoothed) + transition.constant(&scene.destinations.center(i));
-                let bridged = &moved + apply(&onward.gain, &scene.endpoint_error(i, &rest, &moved));
+                    &transition.transition * &smoothed + transition.constant(&scene.destinations.center(i));
+                let bridged = &moved + &onward.gain * scene.endpoint_error(i, &rest, &moved);
                 self.table[scene.plan.rows[i] + node.index] +=
-                    density.log_density(&(&step.measurement.value - apply(observation, &bridged)));
+                    density.log_density(&(&step.measurement.value - observation * &bridged));
             }
         }
     }

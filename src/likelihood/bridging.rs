@@ -24,7 +24,6 @@ use super::states::{StateQuery, States};
 use super::{Likelihood, Scene, Step};
 use crate::error::Result;
 use crate::math::gaussian::{condition, propagate};
-use crate::math::product::apply;
 use crate::model::bridge::Bridge;
 use crate::model::motion::Transition;
 use crate::value::{Node, Value};
@@ -71,7 +70,7 @@ impl<'a> Onward<'a> {
 
     /// The mean of `[x_k; z]` after the step, for the destination around `center`.
     fn mean(&self, before: &DVector<f64>, center: &[f64]) -> DVector<f64> {
-        let mut mean = apply(&self.matrix, before);
+        let mut mean = &self.matrix * before;
         let offset = self.bridge.offset(&self.step.constant(center), &self.rest.constant(center));
         mean.rows_mut(0, offset.len()).zip_apply(&offset, |x, o| *x += o);
         mean
@@ -121,9 +120,9 @@ impl Likelihood for Bridging {
                 let before = DVector::from_column_slice(&self.means[place..place + size]);
                 let mut mean = onward.mean(&before, &scene.destinations.center(i));
                 if let Some(correction) = &correction {
-                    let error = &step.measurement.value - apply(&observation, &mean);
+                    let error = &step.measurement.value - &observation * &mean;
                     self.table[row] += correction.prediction_error.log_density(&error);
-                    mean += apply(&correction.gain, &error);
+                    mean += &correction.gain * &error;
                 }
                 self.means[place..place + size].copy_from_slice(mean.as_slice());
             }

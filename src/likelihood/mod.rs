@@ -16,13 +16,10 @@ pub mod algorithm1;
 pub mod algorithm2;
 pub mod bridging;
 pub mod candidates;
-pub(crate) mod layout;
 pub mod plan;
-pub mod pointing;
 pub mod pseudo_observation;
 pub mod single_filter;
 pub(crate) mod states;
-pub mod telescoped;
 
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
@@ -35,33 +32,6 @@ use nalgebra::{DMatrix, DVector};
 use plan::{Group, Plan};
 use states::{StateQuery, States};
 use std::fmt;
-
-/// Witness that the methods of the papers are part of this build, the feature `papers`. Without it there is no value of this
-/// type, so whatever holds one cannot be, and the compiler leaves out all that works on it.
-///
-/// ```
-/// use whither::likelihood::Papers;
-/// assert!(Papers::built().is_some()); // by default
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Papers(Built);
-
-#[cfg(feature = "papers")]
-type Built = ();
-/// A type without values.
-#[cfg(not(feature = "papers"))]
-type Built = std::convert::Infallible;
-
-impl Papers {
-    /// The witness, where the methods of the papers are part of this build.
-    #[must_use]
-    pub const fn built() -> Option<Self> {
-        #[cfg(feature = "papers")]
-        return Some(Self(()));
-        #[cfg(not(feature = "papers"))]
-        None
-    }
-}
 
 /// The six methods of the papers.
 ///
@@ -114,7 +84,7 @@ impl Method {
     #[must_use]
     pub(crate) fn engine(self) -> Box<dyn Likelihood> {
         match self {
-            Self::PseudoObservation => Box::new(pseudo_observation::PseudoObservation),
+            Self::PseudoObservation => Box::new(pseudo_observation::dense::PseudoObservation),
             Self::Algorithm1 => Box::<algorithm1::Algorithm1>::default(),
             Self::Algorithm2 => Box::<algorithm2::Algorithm2>::default(),
             Self::Bridging => Box::<bridging::Bridging>::default(),

@@ -1,9 +1,9 @@
 //! Which arrival times are tried for which destination: the nodes of (6), and the destinations that share them.
 
-use crate::math::order::Numbering;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
+use std::collections::HashMap;
 
 /// Destinations that have both the arrival nodes and the kind of endpoint in common: every matrix serves all of them.
 ///
@@ -76,7 +76,7 @@ impl Plan {
         // a grid for each kind's own prior, one for all that have none; a grid for each destination under Fitts's law
         let mut shared: Vec<Option<u32>> = vec![None; kinds.len()];
         let mut default: Option<u32> = None;
-        let mut groups = Numbering::default();
+        let mut groups = HashMap::new();
         for i in 0..destinations.len() {
             let kind_number = destinations.kind_number(i);
             let kind = &kinds[kind_number];
@@ -96,8 +96,8 @@ impl Plan {
             };
             *known = Some(grid);
             plan.possible[grid as usize] |= destinations.priors()[i] > 0.0;
-            let (group, is_new) = groups.of(&[u64::from(grid), kind_number as u64]);
-            if is_new {
+            let group = *groups.entry((grid, kind_number)).or_insert(plan.groups.len());
+            if group == plan.groups.len() {
                 plan.groups.push(Group { grid: grid as usize, kind: kind_number, members: Vec::new() });
             }
             plan.groups[group].members.push(i as u32);

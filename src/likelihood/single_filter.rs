@@ -30,7 +30,6 @@
 use super::states::{StateQuery, States};
 use super::{Likelihood, NodeOfGroup, Scene};
 use crate::math::gaussian::{Factor, LN_2_PI, propagate, root, triangularise};
-use crate::math::product::{apply, product};
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
@@ -95,7 +94,7 @@ impl Likelihood for SingleFilter {
         let mut all = DMatrix::zeros(2 * s + length, 2 * s);
         all.view_mut((0, 0), (s, s)).fill_with_identity();
         all.view_mut((s, s), (s, s)).copy_from(&step.transition);
-        all.view_mut((2 * s, s), (length, s)).copy_from(&product(&rest.matrix, &step.transition));
+        all.view_mut((2 * s, s), (length, s)).copy_from(&(&rest.matrix * &step.transition));
         let mut spread = DMatrix::zeros(s + length, s + length);
         let mut passed_on = DMatrix::identity(s + length, s);
         passed_on.rows_mut(s, length).copy_from(&rest.matrix);
@@ -104,13 +103,12 @@ impl Likelihood for SingleFilter {
         let integral = Integral::new(&scene, query.node, joint_root(&all, &scene, &noise))?;
         let at = integral.root.rows(s, s).into_owned();
         let mean = |&i: &usize| {
-            let predicted =
-                apply(&step.transition, &scene.filter.mean(i)) + step.constant(&scene.destinations.center(i));
+            let predicted = &step.transition * scene.filter.mean(i) + step.constant(&scene.destinations.center(i));
             let endpoint = scene.endpoint_error(i, &rest, &predicted);
-            predicted + apply(&at, &integral.mean(&scene, i, &endpoint))
+            predicted + &at * integral.mean(&scene, i, &endpoint)
         };
         let means = query.members.iter().map(mean).collect();
-        Some(States { means, covariance: product(&at, &integral.precision.solve(&at.transpose())) })
+        Some(States { means, covariance: &at * integral.precision.solve(&at.transpose()) })
     }
 
     fn boxed(&self) -> Box<dyn Likelihood> {
@@ -121,7 +119,7 @@ impl Likelihood for SingleFilter {
 /// A root of the covariance of `rows [x_1; x_k] + e`, `e` being noise of the last rows, by the filter and smoother.
 fn joint_root(rows: &DMatrix<f64>, scene: &Scene<'_>, noise: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, l) = (rows.nrows(), noise.nrows());
-    let known = product(rows, &scene.filter.root);
+    let known = rows * &scene.filter.root;
     let mut array = DMatrix::zeros(n, known.ncols() + l);
     array.columns_mut(0, known.ncols()).copy_from(&known);
     array.view_mut((n - l, known.ncols()), (l, l)).copy_from(&root(noise));
@@ -151,11 +149,11 @@ impl Integral {
         let (n, s, l) = (root.nrows(), scene.filter.states, node.covariance.nrows());
         let start = Endpoint::after(scene.motion, node.since_first, l);
         let endpoint_root = root.rows(n - l, l).into_owned();
-        let gap = &endpoint_root - product(&start.matrix, &root.rows(0, s).into_owned());
+        let gap = &endpoint_root - &start.matrix * root.rows(0, s);
         let endpoint = Factor::new(node.covariance.clone())?;
         let denominator = Factor::new(start.noise.clone())?;
-        let mut precision = product(&endpoint_root.transpose(), &endpoint.solve(&endpoint_root));
-        precision -= product(&gap.transpose(), &denominator.solve(&gap));
+        let mut precision = endpoint_root.transpose() * endpoint.solve(&endpoint_root);
+        precision -= gap.transpose() * denominator.solve(&gap);
         for i in 0..n {
             precision[(i, i)] += 1.0;
         }
@@ -173,7 +171,7 @@ impl Integral {
         let apart = scene.endpoint_error(i, &self.start, &scene.filter.smoothed_start(i).mean) - error;
         let (b, r) = (column(error), column(&apart));
         let (solved_b, solved_r) = (self.endpoint.solve(&b), self.denominator.solve(&r));
-        let linear = product(&self.endpoint_root.transpose(), &solved_b) + product(&self.gap.transpose(), &solved_r);
+        let linear = self.endpoint_root.transpose() * &solved_b + &self.gap.transpose() * &solved_r;
         (linear, r.dot(&solved_r) - b.dot(&solved_b))
     }
 

@@ -6,7 +6,6 @@
 
 use super::{NodeOfGroup, Scene};
 use crate::math::gaussian::{condition, propagate};
-use crate::math::product::apply;
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
@@ -50,9 +49,9 @@ impl StateQuery<'_> {
         let predicted = propagate(&step.transition, &filter.current_covariance(), &step.noise);
         let conditioned = condition(&predicted, &rest.matrix, &(&rest.noise + &self.node.covariance))?;
         let mean = |&i: &usize| {
-            let mean = apply(&step.transition, &filter.mean(i)) + step.constant(&destinations.center(i));
+            let mean = &step.transition * filter.mean(i) + step.constant(&destinations.center(i));
             let error = self.now.endpoint_error(i, &rest, &mean);
-            mean + apply(&conditioned.gain, &error)
+            mean + &conditioned.gain * &error
         };
         Some(States { means: self.members.iter().map(mean).collect(), covariance: conditioned.covariance() })
     }

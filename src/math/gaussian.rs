@@ -7,7 +7,6 @@
 //! keeps a covariance positive only as long as its components span less than the sixteen digits of a double: a wide start
 //! and tiny noise lose it. What is a root times its transpose is positive whatever the rounding.
 
-use super::product::{product, product_transposed};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// `ln(2 pi)`.
@@ -163,7 +162,7 @@ pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> O
     let (m, n) = h.shape();
     let mut array = DMatrix::zeros(m + n, m + n);
     array.view_mut((0, 0), (m, m)).copy_from(&root(r));
-    array.view_mut((0, m), (m, n)).copy_from(&product(h, l));
+    array.view_mut((0, m), (m, n)).copy_from(&(h * l));
     array.view_mut((m, m), (n, n)).copy_from(l);
     let array = triangularise(array);
     let spread = array.view((0, 0), (m, m)).into_owned();
@@ -185,7 +184,7 @@ pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> O
 /// `L L'`, symmetric to the bit.
 #[must_use]
 pub fn square(root: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut squared = product_transposed(root, root);
+    let mut squared = root * root.transpose();
     symmetrise(&mut squared);
     squared
 }
@@ -257,7 +256,7 @@ pub fn triangularise(mut a: DMatrix<f64>) -> DMatrix<f64> {
 #[must_use]
 #[inline(never)]
 pub fn propagate(f: &DMatrix<f64>, p: &DMatrix<f64>, q: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut covariance = product_transposed(&product(f, p), f) + q;
+    let mut covariance = f * p * f.transpose() + q;
     symmetrise(&mut covariance);
     covariance
 }

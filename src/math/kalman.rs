@@ -5,7 +5,6 @@
 //! one column where the motion model does not know the destination, and one for each destination where it does.
 
 use super::gaussian::{Gaussian, condition_root, root, square, triangularise};
-use super::product::{apply, product};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A linear observation `y = G x + v`, `v ~ N(0, V)`, as it was made: missing axes have no row.
@@ -134,13 +133,13 @@ impl Filter {
     /// Liang (8): the prediction of the next state.
     pub fn predict(&mut self, step: &TimeUpdate<'_>) {
         let s = self.states;
-        let moved = product(step.transition, &self.root.rows(s, s).into_owned());
+        let moved = step.transition * self.root.rows(s, s);
         self.root.view_mut((s, 0), (s, s)).copy_from(&moved.columns(0, s));
         let mut now = DMatrix::zeros(s, 2 * s);
         now.columns_mut(0, s).copy_from(&moved.columns(s, s));
         now.columns_mut(s, s).copy_from(&root(step.noise));
         self.root.view_mut((s, s), (s, s)).copy_from(&triangularise(now));
-        let mut means = product(step.transition, &self.means.rows(s, s).into_owned());
+        let mut means = step.transition * self.means.rows(s, s);
         let shared = step.offsets.ncols() == 1;
         for (j, mut column) in means.column_iter_mut().enumerate() {
             column += step.offsets.column(if shared { 0 } else { j });
@@ -158,11 +157,11 @@ impl Filter {
         let mut matrix = DMatrix::zeros(m, 2 * s);
         matrix.columns_mut(s, s).copy_from(&measurement.matrix);
         let Some(conditioning) = condition_root(&self.root, &matrix, &measurement.noise) else { return false };
-        let predicted = product(&matrix, &self.means);
+        let predicted = &matrix * &self.means;
         for j in 0..self.means.ncols() {
             let error = &measurement.value - predicted.column(j);
             self.log_evidence[j] += conditioning.prediction_error.log_density(&error);
-            let correction = apply(&conditioning.gain, &error);
+            let correction = &conditioning.gain * &error;
             let mut column = self.means.column_mut(j);
             column += correction;
         }

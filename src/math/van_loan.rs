@@ -15,7 +15,6 @@
 //! Carrying `F - 1` instead of `F` keeps modes that are slow beside `|A|`.
 
 use super::gaussian::symmetrise;
-use super::product::{product, product_transposed};
 use nalgebra::DMatrix;
 
 /// `1 / (k + 1)!` vanishes beside one at the last of them.
@@ -75,11 +74,11 @@ impl VanLoan {
         let mut series = Self { rate, integral: Vec::new(), change: Vec::new(), noise: Vec::new() };
         for k in 0..TERMS {
             let divisor = (k + 2) as f64;
-            let next = product(&unit, &power);
+            let next = &unit * &power;
             series.integral.push(power);
             series.change.push(next.clone());
             power = next / divisor;
-            let next = product(&unit, &driven);
+            let next = &unit * &driven;
             series.noise.push(driven);
             driven = (&next + next.transpose()) / divisor;
         }
@@ -97,11 +96,11 @@ impl VanLoan {
         let mut integral = sum(&self.integral, short) / self.rate;
         let mut noise = sum(&self.noise, short) / self.rate;
         for _ in 0..doublings {
-            let grown = product(&change, &noise);
+            let grown = &change * &noise;
             // Q + (1 + E) Q (1 + E)'
-            noise = 2.0 * noise + &grown + grown.transpose() + product_transposed(&grown, &change);
-            integral = 2.0 * &integral + product(&change, &integral);
-            change = 2.0 * &change + product(&change, &change);
+            noise = 2.0 * noise + &grown + grown.transpose() + &grown * change.transpose();
+            integral = 2.0 * &integral + &change * &integral;
+            change = 2.0 * &change + &change * &change;
         }
         symmetrise(&mut noise);
         for i in 0..change.nrows() {

@@ -6,7 +6,7 @@
 
 use crate::error::{Code, Result};
 use crate::math::quadrature::{MAX_POINTS, Quadrature};
-use crate::value::{Node, Value, number, say};
+use crate::value::{Node, Value, number};
 
 /// The longest time that a prior can name, in seconds; it keeps every power of a step finite.
 pub const MAX_TIME: f64 = 1e12;
@@ -218,7 +218,7 @@ fn interval(node: &Node<'_>) -> Result<(f64, f64)> {
     if to > from {
         Ok((from, to))
     } else {
-        let must = say!("must be greater than \"from\", which is ", number(from));
+        let must = format!("must be greater than \"from\", which is {}", number(from));
         Err(latest.error(Code::OutOfRange, &must))
     }
 }
@@ -235,7 +235,7 @@ fn discrete(node: &Node<'_>) -> Result<Arrival> {
         return Err(list.error(Code::WrongLength, "must have at least one time"));
     }
     if count > MAX_POINTS {
-        return Err(list.error(Code::TooLarge, &say!("must have at most ", MAX_POINTS, " times, has ", count)));
+        return Err(list.error(Code::TooLarge, &format!("must have at most {MAX_POINTS} times, has {count}")));
     }
     let times = list.numbers(time)?;
     let weights = match fields.optional("weights") {
@@ -258,7 +258,7 @@ fn spread(node: &Node<'_>) -> Result<f64> {
     if spread > 0.0 && spread <= MAX_SPREAD {
         Ok(spread)
     } else {
-        Err(node.error(Code::OutOfRange, &say!("must be greater than 0 and at most ", number(MAX_SPREAD))))
+        Err(node.error(Code::OutOfRange, &format!("must be greater than 0 and at most {}", number(MAX_SPREAD))))
     }
 }
 

@@ -11,7 +11,6 @@
 //! conditionally Markov sequences move by it.
 
 use crate::math::gaussian::condition;
-use crate::math::product::{apply, product};
 use nalgebra::{DMatrix, DVector};
 
 /// `x_k = previous x_{k-1} + destination (G~ x_T) + offset + e`, `e ~ N(0, covariance)`.
@@ -75,9 +74,9 @@ impl Bridge {
             });
         }
         let conditioned = condition(step_noise, &seen, &unseen)?;
-        kept -= product(&conditioned.gain, &seen);
+        kept -= &conditioned.gain * &seen;
         Some(Self {
-            previous: product(&kept, step_transition),
+            previous: &kept * step_transition,
             covariance: conditioned.covariance(),
             destination: conditioned.gain,
             kept,
@@ -88,7 +87,7 @@ impl Bridge {
     #[must_use]
     pub fn offset(&self, step_offset: &DVector<f64>, rest_offset: &DVector<f64>) -> DVector<f64> {
         let components = self.destination.ncols();
-        apply(&self.kept, step_offset) - apply(&self.destination, &rest_offset.rows(0, components).into_owned())
+        &self.kept * step_offset - &self.destination * rest_offset.rows(0, components)
     }
 }
 

@@ -3,19 +3,19 @@
 use super::arrival::Arrival;
 use super::observation::read_covariance;
 use crate::error::{Code, Error, Result};
-use crate::math::lanes::Block;
-use crate::math::mixture::AXES;
-use crate::math::order::{Numbering, order};
-use crate::value::{Node, Value, number, quote, say};
+use crate::math::kernel::mixture::AXES;
+use crate::math::kernel::vectors::Block;
+use crate::value::{Node, Value, number, quote};
 
-mod column;
+use std::collections::HashMap;
+
 mod edit;
 mod ids;
 mod kind;
 mod kinds;
 mod means;
 
-use column::{Column, Filler};
+use crate::math::kernel::columns::{Column, Filler};
 use ids::Ids;
 pub use kind::Kind;
 use kinds::Kinds;
@@ -46,18 +46,7 @@ pub struct Destination {
     pub kind: Kind,
 }
 
-/// The pointing model has no arrival prior.
-const KEYS: &[&str] = &[
-    "id",
-    "mean",
-    "covariance",
-    "center",
-    "size",
-    "endVelocity",
-    "prior",
-    #[cfg(feature = "papers")]
-    "arrival",
-];
+const KEYS: [&str; 8] = ["id", "mean", "covariance", "center", "size", "endVelocity", "prior", "arrival"];
 
 impl Destination {
     /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`, for a
@@ -67,11 +56,10 @@ impl Destination {
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
     pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
-        let fields = node.fields(KEYS)?;
+        let fields = node.fields(&KEYS)?;
         let id = fields.required("id")?.text()?.to_owned();
         let prior = fields.optional("prior").map_or(Ok(1.0), |prior| prior.not_negative())?;
-        let arrival = fields.optional("arrival").filter(|_| cfg!(feature = "papers"));
-        let arrival = arrival.map(|arrival| Arrival::read(&arrival)).transpose()?;
+        let arrival = fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?;
         let Some(center) = fields.optional("center") else {
             for key in ["size", "endVelocity"] {
                 if let Some(extra) = fields.optional(key) {
@@ -81,7 +69,7 @@ impl Destination {
             let field = fields.required("mean")?;
             let mean = field.vector(None)?;
             if mean.len() < dimensions || mean.len() > states {
-                let must = say!("must have ", dimensions, " to ", states, " numbers, has ", mean.len());
+                let must = format!("must have {dimensions} to {states} numbers, has {}", mean.len());
                 return Err(field.error(Code::WrongLength, &must));
             }
             let covariance = read_covariance(&fields.required("covariance")?, mean.len())?;
@@ -167,7 +155,7 @@ impl Destinations {
             return Err(Error::new(Code::NoDestinations, node.path(), "must have at least one destination, has none"));
         }
         if count > MOST_DESTINATIONS {
-            let message = say!("must have at most ", MOST_DESTINATIONS, " destinations, has ", count);
+            let message = format!("must have at most {MOST_DESTINATIONS} destinations, has {count}");
             return Err(Error::new(Code::TooLarge, node.path(), message));
         }
         let mut all = Self {
@@ -178,20 +166,21 @@ impl Destinations {
             learnt: None,
             kinds: Kinds::default(),
         };
-        let mut known = Numbering::default();
+        let mut known = HashMap::new();
         for item in items {
             let destination = Destination::read(&item, dimensions, states)?;
-            let (kind, is_new) = known.of(&destination.kind.fingerprint());
-            if is_new {
+            let kind = *known.entry(destination.kind.fingerprint()).or_insert(all.kinds.list().len());
+            if kind == all.kinds.list().len() {
                 all.kinds.add(&destination.kind);
             }
             all.push(&destination, kind);
         }
-        let by_id = order(count, &|i, j| all.ids.get(i).cmp(all.ids.get(j)));
+        let mut by_id: Vec<u32> = (0..count as u32).collect();
+        by_id.sort_by_key(|&i| all.ids.get(i as usize));
         for pair in by_id.windows(2) {
             let (first, second) = (pair[0] as usize, pair[1] as usize);
             if all.ids.get(first) == all.ids.get(second) {
-                let path = say!(node.path(), "[", second, "].id");
+                let path = format!("{}[{second}].id", node.path());
                 return Err(duplicate(path, all.ids.get(first), first));
             }
         }
@@ -217,7 +206,7 @@ impl Destinations {
         Err(Error::new(
             Code::OutOfRange,
             path,
-            say!("the priors must have a finite sum above 0, it is ", number(total)),
+            format!("the priors must have a finite sum above 0, it is {}", number(total)),
         ))
     }
 
@@ -264,7 +253,7 @@ impl Destinations {
         self.find(id).ok_or_else(|| {
             let shown: Vec<String> = self.ids.iter().take(5).map(quote).collect();
             let more = if self.len() > 5 { ", ..." } else { "" };
-            let message = say!("no destination ", quote(id), ", there are ", shown.join(", "), more);
+            let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
             Error::new(Code::UnknownId, "id", message)
         })
     }
@@ -359,5 +348,5 @@ impl Destinations {
 }
 
 fn duplicate(path: String, id: &str, first: usize) -> Error {
-    Error::new(Code::DuplicateId, path, say!("the id ", quote(id), " is taken by destinations[", first, "]"))
+    Error::new(Code::DuplicateId, path, format!("the id {} is taken by destinations[{first}]", quote(id)))
 }

@@ -2,7 +2,6 @@
 
 use super::motion::{MotionModel, Transition};
 use crate::math::gaussian::Factor;
-use crate::math::product::apply;
 use nalgebra::{DMatrix, DVector};
 
 /// How near to no noise at all counts as none, in units of each component's own deviation.
@@ -67,7 +66,7 @@ impl Endpoint {
     /// `a - (B x + n + D c)`, the pseudo-observation's prediction error.
     #[must_use]
     pub fn error(&self, endpoint: Vec<f64>, state: &DVector<f64>, center: &[f64]) -> DVector<f64> {
-        DVector::from_vec(endpoint) - apply(&self.matrix, state) - self.constant(center)
+        DVector::from_vec(endpoint) - &self.matrix * state - self.constant(center)
     }
 }
 
@@ -81,7 +80,7 @@ impl Transition {
 
 fn constant(offset: &DVector<f64>, gain: Option<&DMatrix<f64>>, center: &[f64]) -> DVector<f64> {
     match gain {
-        Some(gain) => offset + apply(gain, &DVector::from_column_slice(center)),
+        Some(gain) => offset + gain * &DVector::from_column_slice(center),
         None => offset.clone(),
     }
 }

@@ -11,7 +11,6 @@
 
 use super::destination::Destinations;
 use crate::error::{Code, Result};
-use crate::math::order::sorted;
 use crate::value::{Node, Value};
 
 /// Counts below this are forgotten.
@@ -143,8 +142,9 @@ impl Habits {
             *self.pairs.entry(&last, id) += 1.0;
             let pairs = &mut self.pairs.0;
             if pairs.len() > MOST_PAIRS {
-                let counts: Vec<f64> = pairs.iter().map(|pair| pair.count).collect();
-                let middle = sorted(&counts)[counts.len() / 2];
+                let mut counts: Vec<f64> = pairs.iter().map(|pair| pair.count).collect();
+                counts.sort_unstable_by(f64::total_cmp);
+                let middle = counts[counts.len() / 2];
                 let mut surplus = counts.len() / 2;
                 pairs.retain(|pair| {
                     let goes = pair.count <= middle && surplus > 0;

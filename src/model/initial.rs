@@ -4,8 +4,7 @@ use super::observation::{ObservationModel, read_covariance};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Gaussian, condition};
 use crate::math::kalman::Measurement;
-use crate::math::product::apply;
-use crate::value::{Node, Value, say};
+use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 
 /// What is known of `x_1` before `y_1`.
@@ -69,7 +68,7 @@ impl Initial {
         for (order, key) in [(1, "velocity"), (2, "acceleration")] {
             let Some(field) = fields.optional(key) else { continue };
             if states < (order + 1) * dimensions {
-                return Err(field.error(Code::OutOfRange, &say!("the motion model has no ", key)));
+                return Err(field.error(Code::OutOfRange, &format!("the motion model has no {key}")));
             }
             let values = field.for_each_axis(dimensions, |n| n.positive())?;
             deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
@@ -120,14 +119,11 @@ impl Initial {
                 if first.value.is_empty() {
                     return Ok(prior.clone());
                 }
-                let error = &first.value - apply(&first.matrix, &prior.mean);
+                let error = &first.value - &first.matrix * &prior.mean;
                 let conditioning = condition(&prior.covariance, &first.matrix, &first.noise).ok_or_else(|| {
                     Error::new(Code::NotPositiveDefinite, "noise", "the first observation has no density")
                 })?;
-                Ok(Gaussian {
-                    mean: &prior.mean + apply(&conditioning.gain, &error),
-                    covariance: conditioning.covariance(),
-                })
+                Ok(Gaussian { mean: &prior.mean + &conditioning.gain * &error, covariance: conditioning.covariance() })
             }
             Prior::Flat(deviations) => {
                 let (axes, states) = (model.axes(), first.matrix.ncols());
@@ -135,7 +131,7 @@ impl Initial {
                     return Err(Error::new(
                         Code::MissingKey,
                         "position",
-                        say!("the first observation must have all ", axes, " axes: initial is flat in position"),
+                        format!("the first observation must have all {axes} axes: initial is flat in position"),
                     ));
                 }
                 let mut mean = DVector::zeros(states);

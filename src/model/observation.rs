@@ -3,7 +3,7 @@
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, is_symmetric};
 use crate::math::kalman::Measurement;
-use crate::value::{LARGEST, Node, Value, say};
+use crate::value::{LARGEST, Node, Value};
 use nalgebra::{DMatrix, DVector};
 
 /// How the state is observed: the matrix `G` (positions by default) and the covariance `V`.
@@ -77,14 +77,14 @@ impl ObservationModel {
     pub fn check(&self, position: &[Option<f64>]) -> Result<()> {
         let axes = self.axes();
         if position.len() != axes {
-            let message = say!("must have ", axes, " numbers, has ", position.len());
+            let message = format!("must have {axes} numbers, has {}", position.len());
             return Err(Error::new(Code::WrongLength, "position", message));
         }
         for (i, y) in position.iter().enumerate() {
             if let Some(y) = y
                 && !(y.abs() <= LARGEST)
             {
-                Node::root(&Value::Number(*y), &say!("position[", i, "]")).number()?;
+                Node::root(&Value::Number(*y), &format!("position[{i}]")).number()?;
             }
         }
         Ok(())

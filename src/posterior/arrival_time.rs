@@ -2,7 +2,6 @@
 
 use super::{Posterior, Shares};
 use crate::likelihood::candidates::Movement;
-use crate::math::order::order;
 
 /// Arrival times and their probabilities.
 ///
@@ -30,8 +29,9 @@ impl Arrival {
     #[must_use]
     pub fn from_nodes(nodes: &[(f64, f64)]) -> Self {
         let (mut times, mut probabilities): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-        for i in order(nodes.len(), &|i, j| nodes[i].0.total_cmp(&nodes[j].0)) {
-            let (time, weight) = nodes[i as usize];
+        let mut nodes = nodes.to_vec();
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (time, weight) in nodes {
             match probabilities.last_mut() {
                 Some(sum) if times.last() == Some(&time) => *sum += weight,
                 _ => {

@@ -1,11 +1,10 @@
 //! Liang (3): the posterior over destinations, and "none of them".
 
 pub mod arrival_time;
-pub mod pointing;
 pub mod state;
 
 use crate::likelihood::candidates::Movement;
-use crate::math::lanes::WIDTH;
+use crate::math::kernel::vectors::WIDTH;
 use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::model::destination::Destinations;
 

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 /// A mixture of Gaussians in the making: each part moves the mean and widens the covariance by its distance from it, so
 /// nothing is subtracted and the covariance stays positive.
 #[derive(Default)]
-pub(super) struct Moments {
+pub(crate) struct Moments {
     total: f64,
     pub mixture: Option<Gaussian>,
 }

@@ -3,7 +3,7 @@
 use super::Predictor;
 use crate::error::{Code, Error, Result};
 use crate::model::destination::{Destination, Destinations};
-use crate::value::{Node, Value, say};
+use crate::value::{Node, Value};
 use std::sync::Arc;
 
 impl Predictor {
@@ -33,7 +33,7 @@ impl Predictor {
         if let Value::Map(entries) = &mut named {
             match entries.iter().find(|(key, value)| key == "id" && *value != Value::Null) {
                 Some((_, given)) if *given != Value::text(id) => {
-                    let message = say!("must stay ", Value::text(id).quoted(), ", got ", given.quoted());
+                    let message = format!("must stay {}, got {}", Value::text(id).quoted(), given.quoted());
                     return Err(Error::new(Code::OutOfRange, "destination.id", message));
                 }
                 Some(_) => {}
@@ -98,7 +98,7 @@ impl Predictor {
             found.ok_or_else(|| {
                 let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
                                evidence accumulates for each of them";
-                Error::new(Code::MethodAccumulates, say!("destinations[", j, "]"), message)
+                Error::new(Code::MethodAccumulates, format!("destinations[{j}]"), message)
             })
         };
         (0..changed.len()).map(find).collect()

@@ -2,14 +2,14 @@
 
 use super::Remaining;
 use crate::error::{Code, Error, Result};
+use crate::likelihood::Method;
 use crate::likelihood::candidates::Movement;
 use crate::likelihood::plan::Plan;
-use crate::likelihood::pointing::course::Course;
-use crate::likelihood::pointing::{Pointing, parameters::axis_variances};
-use crate::likelihood::telescoped::Telescoped;
-use crate::likelihood::{Method, Papers};
+use crate::likelihood::pseudo_observation::Telescoped;
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
+use crate::pointing::course::Course;
+use crate::pointing::{Pointing, parameters::axis_variances};
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::{Engine, Scenario};
@@ -32,14 +32,12 @@ pub(crate) struct Track {
 #[derive(Clone, Debug)]
 enum Followed {
     Papers {
-        _built: Papers,
         movement: Movement,
         /// The movement before every node had passed: what the probabilities stay at.
         frozen: Option<Box<Movement>>,
     },
     /// `pseudoObservation` where the motion model does not know the destination.
     Telescoped {
-        _built: Papers,
         now: Box<Telescoped>,
         /// As it was before every node had passed.
         before: Option<Box<Telescoped>>,
@@ -83,7 +81,7 @@ impl Track {
         let prior = scenario.initial.counted();
         let first = prior.cloned().unwrap_or(posterior);
         let followed = match &scenario.engine {
-            Engine::Papers { method, arrival, quadrature, built } => {
+            Engine::Papers { method, arrival, quadrature } => {
                 let plan = Plan::new(destinations, arrival, quadrature, &start);
                 if telescopes(scenario) {
                     let separately = scenario.observation.is_position();
@@ -91,13 +89,13 @@ impl Track {
                     if prior.is_some() {
                         now = now.before_first_observation();
                     }
-                    Followed::Telescoped { _built: *built, now: Box::new(now), before: None, dense: None }
+                    Followed::Telescoped { now: Box::new(now), before: None, dense: None }
                 } else {
                     let mut movement = Movement::begin(&scenario.motion, *method, destinations, plan, first);
                     if prior.is_some() {
                         movement = movement.before_first_observation();
                     }
-                    Followed::Papers { _built: *built, movement, frozen: None }
+                    Followed::Papers { movement, frozen: None }
                 }
             }
             Engine::Pointing(parameters) => {
@@ -374,7 +372,7 @@ impl Track {
         let start = fields.required("start")?.exact_numbers(destinations.dimensions())?;
         let saved = fields.required("movement")?;
         let followed = match &scenario.engine {
-            Engine::Papers { method, arrival, quadrature, built } => {
+            Engine::Papers { method, arrival, quadrature } => {
                 let load = |node: &Node<'_>| {
                     let plan = Plan::new(destinations, arrival, quadrature, &start);
                     let mut movement = Movement::load(node, &scenario.motion, *method, destinations, plan)?;
@@ -391,14 +389,9 @@ impl Track {
                         Box::new(resumed.with_shifts(shifts))
                     };
                     let before = frozen.as_deref().map(|before| resume(before, [shifts[2], shifts[3]]));
-                    Followed::Telescoped {
-                        _built: *built,
-                        now: resume(&movement, [shifts[0], shifts[1]]),
-                        before,
-                        dense: None,
-                    }
+                    Followed::Telescoped { now: resume(&movement, [shifts[0], shifts[1]]), before, dense: None }
                 } else {
-                    Followed::Papers { _built: *built, movement, frozen }
+                    Followed::Papers { movement, frozen }
                 }
             }
             Engine::Pointing(parameters) => {

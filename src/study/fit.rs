@@ -10,7 +10,7 @@ use super::track::Track;
 use crate::error::{Code, Error, Result};
 use crate::predictor::Predictor;
 use crate::scenario::Engine;
-use crate::value::{Node, Value, quote, say};
+use crate::value::{Node, Value, quote};
 use cobyla::{RhoBeg, StopTols, minimize};
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -99,14 +99,9 @@ pub fn fit(
     }
     let needed = TRACKS_PER_CONSTANT * paths.len();
     if usable.len() < needed {
-        let message = say!(
-            "must have at least ",
-            needed,
-            " tracks that enter their target, ",
-            TRACKS_PER_CONSTANT,
-            " for each of ",
+        let message = format!(
+            "must have at least {needed} tracks that enter their target, {TRACKS_PER_CONSTANT} for each of {} constants, has {}",
             paths.len(),
-            " constants, has ",
             usable.len()
         );
         return Err(Error::new(Code::OutOfRange, "tracks", message));
@@ -140,7 +135,7 @@ pub fn fit(
 /// An error of the scenario as the track numbered `k` makes it: what is wrong with its destinations is wrong with the track.
 fn of_track(k: usize, error: &Error) -> Error {
     let path = match error.path().strip_prefix("destinations") {
-        Some(rest) => say!("tracks[", k, "].targets", rest),
+        Some(rest) => format!("tracks[{k}].targets{rest}"),
         None => error.path().to_owned(),
     };
     Error::new(error.code(), path, error.message())
@@ -178,7 +173,7 @@ fn read(template: &Value, path: &str) -> Result<f64> {
     match place {
         Value::Number(x) if *x > 0.0 && x.is_finite() => Ok(*x),
         other => {
-            let message = say!(quote(path), " must be a number above 0 to be learnt, got ", other.quoted());
+            let message = format!("{} must be a number above 0 to be learnt, got {}", quote(path), other.quoted());
             Err(Error::new(Code::OutOfRange, "constants", message))
         }
     }

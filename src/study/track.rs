@@ -3,7 +3,7 @@
 use crate::error::{Code, Error, Result};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
-use crate::value::{Node, Value, number, say};
+use crate::value::{Node, Value, number};
 use serde::{Deserialize, Deserializer};
 
 /// One recorded movement towards one of several targets.
@@ -118,7 +118,7 @@ impl Track {
         let target = fields.required("target")?;
         let chosen = target.number()?;
         if chosen < 0.0 || chosen.fract() != 0.0 || chosen >= targets.len() as f64 {
-            let must = say!("must be the place of one of the ", targets.len(), " targets, counted from 0");
+            let must = format!("must be the place of one of the {} targets, counted from 0", targets.len());
             return Err(target.error(Code::OutOfRange, &must));
         }
         Ok(Self { id: text("id")?, user: text("user")?, targets, target: chosen as usize, samples })
@@ -196,7 +196,7 @@ fn read_samples(list: &Node<'_>) -> Result<Vec<Sample>> {
     for axis in 0..first.position.len() {
         let seen = samples.iter().find(|sample| !sample.missing.contains(&axis));
         let Some(mut last) = seen.map(|sample| sample.position[axis]) else {
-            return Err(list.error(Code::OutOfRange, &say!("must have a number at least once for axis ", axis)));
+            return Err(list.error(Code::OutOfRange, &format!("must have a number at least once for axis {axis}")));
         };
         for sample in &mut samples {
             if sample.missing.contains(&axis) {
@@ -233,7 +233,7 @@ fn check_sample(sample: &Sample, last: Option<&Sample>, item: &Node<'_>) -> Resu
         return Err(item.error(Code::WrongLength, "must have as many numbers as the sample before"));
     }
     if sample.time < last.time {
-        let must = say!("must not be before the sample at ", number(last.time));
+        let must = format!("must not be before the sample at {}", number(last.time));
         return Err(item.error(Code::TimeNotIncreasing, &must));
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The keys of an object.
 
-use super::{Node, Step, Value, quote, say};
+use super::{Node, Step, Value, quote};
 use crate::error::{Code, Error, Result};
 
 /// An object whose keys have been checked.
@@ -35,7 +35,7 @@ impl<'a> Fields<'a> {
     pub fn required(&self, key: &'a str) -> Result<Node<'a>> {
         self.optional(key).ok_or_else(|| {
             let path = Node { value: &Value::Null, parent: Some(self.node), step: Step::Key(key) }.path();
-            Error::new(Code::MissingKey, path, say!("missing key ", quote(key)))
+            Error::new(Code::MissingKey, path, format!("missing key {}", quote(key)))
         })
     }
 

@@ -5,7 +5,7 @@
 pub fn quote(text: &str) -> String {
     let cut: String = text.chars().take(40).collect();
     let more = if cut.len() < text.len() { "..." } else { "" };
-    super::say!("\"", cut, more, "\"")
+    format!("\"{cut}{more}\"")
 }
 
 /// A number as JavaScript prints it.

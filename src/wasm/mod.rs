@@ -12,7 +12,7 @@ mod pointer;
 #[cfg(feature = "wasm")]
 mod predictor;
 mod room;
-#[cfg(all(feature = "wasm", feature = "papers"))]
+#[cfg(feature = "wasm")]
 mod sequence;
 
 use error::WhitherError;

@@ -3,7 +3,7 @@
 use super::{Result, data, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
 use crate::error::Code;
-use crate::value::{Node, say};
+use crate::value::Node;
 use nalgebra::DMatrix;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -112,7 +112,7 @@ impl SequenceEngine {
         if x.fract() == 0.0 && (0.0..=last as f64).contains(&x) {
             return Ok(x as usize);
         }
-        Err(node.error(Code::OutOfRange, &say!("must be a whole number from 0 to ", last)))
+        Err(node.error(Code::OutOfRange, &format!("must be a whole number from 0 to {last}")))
     }
 }
 

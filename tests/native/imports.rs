@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Each part of the crate and the parts that it may name with `crate::`. `error` and `value` are at the bottom.
-const RUST: [(&str, &[&str]); 13] = [
+const RUST: [(&str, &[&str]); 14] = [
     ("error", &[]),
     // the numbers of messages, as JavaScript prints them
     ("value", &["wasm"]),
@@ -14,16 +14,17 @@ const RUST: [(&str, &[&str]); 13] = [
     ("likelihood", &["math", "model", "likelihood"]),
     ("conditionally_markov", &["math", "model", "conditionally_markov"]),
     ("posterior", &["math", "model", "likelihood", "posterior"]),
-    ("scenario", &["math", "model", "likelihood"]),
+    ("pointing", &["math", "model", "posterior", "pointing"]),
+    ("scenario", &["math", "model", "likelihood", "pointing"]),
     ("pointer", &["scenario"]),
-    ("predictor", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
-    ("snapshot", &["math", "model", "likelihood", "posterior", "scenario", "predictor"]),
-    ("study", &["math", "model", "likelihood", "scenario", "predictor", "snapshot", "study"]),
+    ("predictor", &["math", "model", "likelihood", "posterior", "pointing", "scenario", "predictor"]),
+    ("snapshot", &["math", "model", "likelihood", "posterior", "pointing", "scenario", "predictor"]),
+    ("study", &["math", "model", "likelihood", "pointing", "scenario", "predictor", "snapshot", "study"]),
     ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"]),
 ];
 
 /// Engines never import one another.
-const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation", "single_filter"];
+const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Who may name the generated code and its one importer.
 const JAVASCRIPT: [(&str, &[&str]); 2] = [

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use whither::likelihood::Method;
 use whither::likelihood::candidates::Movement;
 use whither::likelihood::plan::Plan;
-use whither::likelihood::telescoped::Telescoped;
+use whither::likelihood::pseudo_observation::Telescoped;
 use whither::math::random::Random;
 use whither::posterior::Posterior;
 use whither::{Predictor, Scenario};

@@ -2,7 +2,6 @@
 
 use super::{Destination, Destinations, MOST_DESTINATIONS, duplicate};
 use crate::error::{Code, Error, Result};
-use crate::value::say;
 
 impl Destinations {
     /// Adds a destination at the end.
@@ -16,7 +15,7 @@ impl Destinations {
             Err(place) => place,
         };
         if self.len() >= MOST_DESTINATIONS {
-            let message = say!("must have at most ", MOST_DESTINATIONS, " destinations");
+            let message = format!("must have at most {MOST_DESTINATIONS} destinations");
             return Err(Error::new(Code::TooLarge, "destinations", message));
         }
         self.by_id.insert(place, self.ids.len() as u32);

@@ -1,7 +1,7 @@
 //! What many destinations have in common.
 
 use super::Arrival;
-use crate::math::mixture::AXES;
+use crate::math::kernel::mixture::AXES;
 use nalgebra::{DMatrix, DVector};
 
 /// What many destinations have in common: the endpoint's covariance `S_i`, its size, the arrival prior.

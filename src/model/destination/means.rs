@@ -1,8 +1,8 @@
 //! The means of the endpoints, a list for each component, as the hot loops read those of the position.
 
-use super::column::{Column, Filler};
-use crate::math::lanes::Block;
-use crate::math::mixture::AXES;
+use crate::math::kernel::columns::{Column, Filler};
+use crate::math::kernel::mixture::AXES;
+use crate::math::kernel::vectors::Block;
 use std::ops::Deref;
 
 /// The centre of a destination, the first `d` components of its endpoint's mean.

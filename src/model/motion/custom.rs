@@ -14,9 +14,8 @@
 
 use super::{AxisTransition, Kind, MotionModel, Transition};
 use crate::error::{Code, Result};
-use crate::math::product::{apply, product};
 use crate::math::van_loan::VanLoan;
-use crate::value::{Fields, Node, Value, say};
+use crate::value::{Fields, Node, Value};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -64,11 +63,11 @@ impl Custom {
         let node = fields.required("drift")?;
         let states = node.items()?.len();
         if states < dimensions {
-            let must = say!("must have a row for each of the ", dimensions, " positions at least, has ", states);
+            let must = format!("must have a row for each of the {dimensions} positions at least, has {states}");
             return Err(node.error(Code::WrongLength, &must));
         }
         if states > MAX_STATES {
-            return Err(node.error(Code::TooLarge, &say!("must have at most ", MAX_STATES, " rows, has ", states)));
+            return Err(node.error(Code::TooLarge, &format!("must have at most {MAX_STATES} rows, has {states}")));
         }
         let drift = DMatrix::from_row_slice(states, states, &node.matrix(states, states)?);
         let diffusion = diffusion(&fields.required("diffusion")?, states)?;
@@ -106,11 +105,11 @@ impl MotionModel for Custom {
         let over = self.equation.step(step);
         Transition {
             offset: match &self.offset {
-                Some(offset) => apply(&over.integral, offset),
+                Some(offset) => &over.integral * offset,
                 None => DVector::zeros(self.states()),
             },
             destination_gain: match &self.destination_gain {
-                Some(gain) if self.depends_on_destination() => Some(product(&over.integral, gain)),
+                Some(gain) if self.depends_on_destination() => Some(&over.integral * gain),
                 _ => None,
             },
             transition: over.transition,

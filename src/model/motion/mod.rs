@@ -21,7 +21,7 @@
 //! | `custom` | [`custom`] | any | any |
 
 use crate::error::{Code, Error, Result};
-use crate::value::{Fields, Node, Value, say};
+use crate::value::{Fields, Node, Value};
 use nalgebra::{DMatrix, DVector};
 use std::fmt;
 use std::sync::Arc;
@@ -220,18 +220,12 @@ type Build = fn(&Fields<'_>, Vec<f64>, usize) -> Result<Arc<dyn MotionModel>>;
 
 /// Every `type`; without the methods of the papers the one that the pointing model moves by.
 const KINDS: &[(&str, Kind)] = &[
-    #[cfg(feature = "papers")]
     brownian::KIND,
     constant_velocity::KIND,
-    #[cfg(feature = "papers")]
     constant_acceleration::KIND,
-    #[cfg(feature = "papers")]
     integrated_ornstein_uhlenbeck::KIND,
-    #[cfg(feature = "papers")]
     mean_reverting::KIND,
-    #[cfg(feature = "papers")]
     equilibrium_reverting_velocity::KIND,
-    #[cfg(feature = "papers")]
     custom::KIND,
 ];
 
@@ -362,7 +356,7 @@ impl NoiseCandidates {
             return Err(candidates.error(Code::WrongLength, "must have at least one candidate"));
         }
         if count > MAX_CANDIDATES {
-            let must = say!("must have at most ", MAX_CANDIDATES, " candidates, has ", count);
+            let must = format!("must have at most {MAX_CANDIDATES} candidates, has {count}");
             return Err(candidates.error(Code::TooLarge, &must));
         }
         let noises =

@@ -1,16 +1,16 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
 use super::IN_RANGE;
-use super::ends::AxisEnd;
-use super::leaves::{Leaf, MANY, arrange, leaves};
+use super::axis_endpoint::AxisEnd;
+use super::pruning::{Leaf, MANY, arrange, leaves};
 use super::separable::MOST;
-use crate::likelihood::layout::{FEW, Layout};
 use crate::likelihood::plan::Plan;
-use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::AXES;
-use crate::math::order::Numbering;
+use crate::math::kernel::layout::{FEW, Layout};
+use crate::math::kernel::mixture::AXES;
+use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Arrival nodes of a class.
@@ -175,12 +175,14 @@ impl Classes {
             }
             classes.place(&pool, (nodes, end, None));
         }
-        classes.layout.finish(destinations);
+        classes.layout.finish(destinations.len(), destinations.coordinates(), &|i, axis| {
+            destinations.kind(i).variance(axis, axis)
+        });
         classes.keep_priors(destinations);
         if classes.separable {
             let mut all = std::mem::take(&mut classes.classes);
             for class in all.iter_mut().filter(|class| class.size.is_some()) {
-                let places = classes.layout.places(destinations, &class.blocks, [0.0; AXES]);
+                let places = classes.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]);
                 class.leaves = leaves(&places, &class.blocks, classes.priors_in(destinations, &class.blocks));
             }
             classes.classes = all;
@@ -211,19 +213,20 @@ impl Classes {
 
     /// By nodes and endpoint, those of one size together.
     fn drafts(&mut self, destinations: &Destinations, plan: &Plan) -> Vec<((usize, usize), Vec<Draft>)> {
-        let (mut known_ends, mut known) = (Numbering::default(), Numbering::default());
+        let (mut known_ends, mut known) = (HashMap::new(), HashMap::new());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
             let covariance = &destinations.kinds()[group.kind].covariance();
             let mut members: Vec<(usize, Draft)> = Vec::new();
-            let mut here = Numbering::default();
+            let mut here = HashMap::new();
             for &i in &group.members {
                 let rest = destinations.rest(i as usize);
-                let (draft, is_new) = here.of(&rest.iter().map(|x| x.to_bits()).collect::<Vec<u64>>());
-                if is_new {
+                let key: Vec<u64> = rest.iter().map(|x| x.to_bits()).collect();
+                let draft = *here.entry(key).or_insert(members.len());
+                if draft == members.len() {
                     let end = End::new(&rest, covariance, self.dimensions, self.separable);
-                    let (number, is_new) = known_ends.of(&end.key());
-                    if is_new {
+                    let number = *known_ends.entry(end.key()).or_insert(self.ends.len());
+                    if number == self.ends.len() {
                         self.ends.push(end);
                     }
                     let size = std::array::from_fn(|k| if k < self.dimensions { covariance[(k, k)] } else { 0.0 });
@@ -232,8 +235,8 @@ impl Classes {
                 members[draft].1.members.push(i);
             }
             for (end, draft) in members {
-                let (place, is_new) = known.of(&[group.grid as u64, end as u64]);
-                if is_new {
+                let place = *known.entry((group.grid, end)).or_insert(all.len());
+                if place == all.len() {
                     all.push(((group.grid, end), Vec::new()));
                 }
                 all[place].1.push(draft);

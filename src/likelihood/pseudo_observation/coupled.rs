@@ -4,8 +4,7 @@
 use super::classes::End;
 use crate::math::gaussian::{Gaussian, propagate};
 use crate::math::kalman::Filter;
-use crate::math::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
-use crate::math::product::apply;
+use crate::math::kernel::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
 use crate::model::motion::{MotionModel, Transition};
 
 /// A matrix over the axes.
@@ -30,7 +29,7 @@ impl Coupled {
     pub fn foresee(&self, model: &dyn MotionModel, elapsed: f64) -> Gaussian {
         let step = model.transition(elapsed);
         let covariance = propagate(&step.transition, &self.first.covariance, &step.noise);
-        Gaussian { mean: apply(&step.transition, &self.first.mean) + step.offset, covariance }
+        Gaussian { mean: &step.transition * &self.first.mean + step.offset, covariance }
     }
 }
 

@@ -1,10 +1,10 @@
 //! One number of each of many things, in whole blocks: what the hot loops read as it stands.
 
-use crate::math::lanes::{Block, WIDTH};
+use crate::math::kernel::vectors::{Block, WIDTH};
 
 /// What the last block is filled up with.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Filler {
+pub(crate) enum Filler {
     /// Nothing: of weights.
     Zero,
     /// The block's first number: of positions, so that nothing is said of any place but those that there are.
@@ -13,7 +13,7 @@ pub(super) enum Filler {
 
 /// Numbers in order.
 #[derive(Clone, Debug)]
-pub(super) struct Column {
+pub(crate) struct Column {
     /// Whole blocks, the last one filled up.
     numbers: Vec<f64>,
     length: usize,

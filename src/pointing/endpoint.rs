@@ -12,9 +12,9 @@ use super::course::Course;
 use super::parameters::{Parameters, TimeToGo};
 use super::{Symmetric, Vector, dot, minus, vector};
 use crate::math::gaussian::LN_2_PI;
-use crate::math::lanes::{Block, Lanes, Number, WIDTH};
+use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
+use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
-use crate::math::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use crate::model::destination::Kind;
 use std::ops::Range;
 

@@ -24,7 +24,7 @@
 //! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-12);
 //! ```
 
-use super::{Likelihood, Scene};
+use crate::likelihood::{Likelihood, Scene};
 use crate::math::gaussian::{Factor, propagate};
 use crate::model::endpoint::Endpoint;
 

@@ -11,7 +11,7 @@ use crate::value::{Node, Value};
 /// rank destinations.
 ///
 /// ```
-/// use whither::likelihood::pointing::entry_time::EntryTime;
+/// use whither::pointing::entry_time::EntryTime;
 /// let entry = EntryTime { offset: 0.0, nodes: 1.0, near: -2.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
 /// let [median, low, high] = entry.at(0.3f64.ln(), 0.0, 0.8);
 /// assert!((median - 0.3).abs() < 1e-12 && low < 0.12 && high > 0.8);

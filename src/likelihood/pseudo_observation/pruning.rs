@@ -5,9 +5,8 @@
 //! whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left out is less than
 //! 1e-14 of the whole.
 
-use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::{AXES, Ball, Ellipsoid, Places};
-use crate::math::order::order;
+use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, Places};
+use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use std::ops::Range;
 
@@ -37,18 +36,18 @@ fn edges(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
 /// The order in which many destinations stand: along a curve that fills the space, the bits of their coordinates in turns.
 pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
-    let (before, mut places) = (members.to_vec(), vec![0u64; members.len()]);
+    let mut places: Vec<(u64, u32)> = members.iter().map(|&i| (0, i)).collect();
     for axis in 0..d {
         let own = destinations.coordinates()[axis].as_flattened();
         let center = |i: u32| own.get(i as usize).copied().unwrap_or_default();
-        let (low, high) = edges(before.iter().map(|&i| center(i)));
-        for (place, &i) in places.iter_mut().zip(&before) {
-            let share = ((center(i) - low) / (high - low) * 65_535.0) as u64;
+        let (low, high) = edges(members.iter().map(|&i| center(i)));
+        for (place, i) in &mut places {
+            let share = ((center(*i) - low) / (high - low) * 65_535.0) as u64;
             *place |= (0..16).map(|bit| (share >> bit & 1) << (bit * d + axis)).sum::<u64>();
         }
     }
-    let order = order(members.len(), &|i, j| places[i].cmp(&places[j]));
-    members.iter_mut().zip(order).for_each(|(member, i)| *member = before[i as usize]);
+    places.sort_by_key(|(place, _)| *place);
+    members.iter_mut().zip(places).for_each(|(member, (_, i))| *member = i);
 }
 
 /// The leaves of destinations that stand in these blocks, with their places and prior weights; none where they are few.

@@ -3,9 +3,8 @@
 //! Where those of one class follow one another anyway, they stand in their own order, and nothing is kept twice: what is said
 //! of them is read from the destinations, and what is found is written where it is wanted.
 
-use crate::math::lanes::{Block, WIDTH};
-use crate::math::mixture::{AXES, Places};
-use crate::model::destination::Destinations;
+use super::mixture::{AXES, Places};
+use super::vectors::{Block, WIDTH};
 use std::ops::Range;
 
 /// Fewer destinations of one class than this are sooner evaluated among others, each with its own variances.
@@ -49,20 +48,21 @@ impl Layout {
         start..self.blocks
     }
 
-    /// Once all of them are there.
-    pub fn finish(&mut self, destinations: &Destinations) {
-        self.count = destinations.len();
+    /// Once all of them are there: `count`, with `coordinates` in blocks in their own order, and `variance(i, axis)` of those that
+    /// have their own.
+    pub fn finish(&mut self, count: usize, coordinates: [&[Block]; AXES], variance: &dyn Fn(usize, usize) -> f64) {
+        self.count = count;
         if self.order.iter().take(self.count).zip(0..).all(|(&i, place)| i == place) {
             self.order.clear();
         }
         self.order.shrink_to_fit();
-        for axis in 0..destinations.dimensions() {
+        for (axis, own) in coordinates.iter().enumerate().filter(|(_, own)| !own.is_empty()) {
             if !self.is_own() {
-                let own = destinations.coordinates()[axis].as_flattened();
+                let own = own.as_flattened();
                 self.coordinates[axis] = self.gather(&|i, _| own.get(i).copied().unwrap_or_default());
             }
             if self.own_variances {
-                self.variances[axis] = self.gather(&|i, _| destinations.kind(i).variance(axis, axis));
+                self.variances[axis] = self.gather(&|i, _| variance(i, axis));
             }
         }
     }
@@ -98,22 +98,17 @@ impl Layout {
         self.members().map(|block| block.map(|(i, stands)| number(i, stands))).collect()
     }
 
-    /// The coordinates of all, a list for each axis.
+    /// The coordinates of all, a list for each axis; `own` are those in the destinations' own order.
     #[must_use]
-    pub fn coordinates<'a>(&'a self, destinations: &'a Destinations) -> [&'a [Block]; AXES] {
-        if self.is_own() { destinations.coordinates() } else { lists(&self.coordinates) }
+    pub fn coordinates<'a>(&'a self, own: [&'a [Block]; AXES]) -> [&'a [Block]; AXES] {
+        if self.is_own() { own } else { lists(&self.coordinates) }
     }
 
-    /// The places of some blocks.
+    /// The places of some blocks; `own` as for [`Layout::coordinates`].
     #[must_use]
-    pub fn places<'a>(
-        &'a self,
-        destinations: &'a Destinations,
-        blocks: &Range<usize>,
-        origin: [f64; AXES],
-    ) -> Places<'a> {
+    pub fn places<'a>(&'a self, own: [&'a [Block]; AXES], blocks: &Range<usize>, origin: [f64; AXES]) -> Places<'a> {
         let variances = part(lists(&self.variances), blocks);
-        Places { coordinates: part(self.coordinates(destinations), blocks), variances, origin }
+        Places { coordinates: part(self.coordinates(own), blocks), variances, origin }
     }
 
     /// Room for a number of each destination: in `into` itself where they stand in their own order, else in `aside`. Every

@@ -13,7 +13,7 @@
 //! | near | a movement seldom ends where it began | `evidence` |
 //! | onset | a pointer that rests from the start on has not begun a movement, and may mean what it rests on | `course` |
 //!
-//! `targets` and `weigh` do it for all destinations at the speed of the machine; the other parts say it one destination at
+//! `targets` and `kernel` do it for all destinations at the speed of the machine; the other parts say it one destination at
 //! a time, for the log likelihoods and whatever else is asked.
 //!
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
@@ -22,24 +22,26 @@ pub(crate) mod course;
 pub(crate) mod endpoint;
 pub mod entry_time;
 pub(crate) mod evidence;
+pub(crate) mod kernel;
 pub mod parameters;
+mod posterior;
+mod state;
 pub(crate) mod targets;
-pub(crate) mod weigh;
 
 use crate::math::log_sum_exp::share;
 use crate::model::destination::Destinations;
 use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
+use kernel::{Now, Work};
 use parameters::Parameters;
 use std::sync::Arc;
 use targets::Targets;
-use weigh::{Now, Work};
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
 ///
 /// ```
-/// use whither::likelihood::pointing::{Vector, dot, vector};
+/// use whither::pointing::{Vector, dot, vector};
 /// let way: Vector = vector(&[3.0, 4.0]);
 /// assert_eq!((way, dot(&way, &way)), ([3.0, 4.0, 0.0], 25.0));
 /// ```

@@ -3,12 +3,12 @@
 use super::entry_time::EntryTime;
 use super::{Vector, vector};
 use crate::error::{Code, Error, Result};
-use crate::math::lanes::{Block, Lanes, raise};
-use crate::math::mixture::HALF_LOG2_E;
+use crate::math::kernel::mixture::HALF_LOG2_E;
+use crate::math::kernel::vectors::{Block, Lanes, raise};
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::ObservationModel;
-use crate::value::{Node, Value, say};
+use crate::value::{Node, Value};
 use nalgebra::DMatrix;
 
 /// The most noise scales and time-to-go nodes: both are summed over for every destination.
@@ -69,7 +69,7 @@ pub struct Parameters {
 /// A discrete prior on the time to go, log-normal about a median that follows the speed.
 ///
 /// ```
-/// use whither::likelihood::pointing::parameters::TimeToGo;
+/// use whither::pointing::parameters::TimeToGo;
 /// let prior = TimeToGo { from: 0.1, to: 0.4, points: 3, median: 0.2, spread: 0.5, speed_exponent: -0.25 };
 /// assert!((prior.nodes()[1] - 0.2).abs() < 1e-14); // twice the first, half of the last
 /// ```
@@ -92,7 +92,7 @@ pub struct TimeToGo {
 /// Density of the endpoint seen from the start: `(distance^2 + core^2)^(-exponent/2)` within `reach`.
 ///
 /// ```
-/// use whither::likelihood::pointing::parameters::Start;
+/// use whither::pointing::parameters::Start;
 /// let start = Start { exponent: 0.0, core: 1.0, reach: 10.0 };
 /// // flat within its reach: over the length 20 in one axis
 /// assert!((start.log_volume(1) - 20f64.ln()).abs() < 1e-3);
@@ -134,7 +134,7 @@ pub struct Direction {
 /// A power that grows from `from` to `to` with the time constant `time`.
 ///
 /// ```
-/// use whither::likelihood::pointing::parameters::Power;
+/// use whither::pointing::parameters::Power;
 /// let power = Power { from: 0.5, to: 1.5, time: 0.2 };
 /// assert_eq!(power.after(0.0), 0.5);
 /// assert!((power.after(0.2 * 2f64.ln()) - 1.0).abs() < 1e-14); // half of the way
@@ -269,7 +269,7 @@ pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<[f64; 3]> {
 fn read_scales(node: &Node<'_>) -> Result<Vec<f64>> {
     let scales = node.numbers(|item| item.positive())?;
     if scales.is_empty() || scales.len() > MOST_SCALES {
-        let message = say!("must have 1 to ", MOST_SCALES, " numbers, has ", scales.len());
+        let message = format!("must have 1 to {MOST_SCALES} numbers, has {}", scales.len());
         return Err(Error::new(Code::WrongLength, node.path(), message));
     }
     Ok(scales)

@@ -4,12 +4,11 @@
 //! the endpoint (Liang (10)), and mixed with the weights `p(D_i, c, R_n | y_1:k)`; mean and covariance by moment matching.
 //! Roots of covariances all the way, so that no variance is a difference.
 
-use super::Shares;
-use crate::likelihood::pointing::endpoint::{Pair, spread};
-use crate::likelihood::pointing::{Pointing, Symmetric, minus, vector};
+use super::endpoint::{Pair, spread};
+use super::{Pointing, Symmetric, minus, vector};
 use crate::math::gaussian::{Conditioning, Gaussian, condition_root, root, square, triangularise};
-use crate::math::product::apply;
 use crate::model::destination::Destinations;
+use crate::posterior::Shares;
 use crate::posterior::state::Moments;
 use nalgebra::{DMatrix, DVector};
 
@@ -48,7 +47,7 @@ impl Pointing {
                     continue;
                 }
                 let error = minus(&offset, &self.course().velocity().map(|v| v * pair.time));
-                let mean = &view.mean + apply(gain, &DVector::from_column_slice(&error[..d]));
+                let mean = &view.mean + gain * &DVector::from_column_slice(&error[..d]);
                 moments.add(weight, mean, covariance);
             }
         }

@@ -1,6 +1,6 @@
 //! `pseudoObservation` where the motion model does not know the destination, at the speed of the machine.
 //!
-//! The telescoped form of [`super::pseudo_observation`] is the ratio of two Gaussian densities of the endpoint, so its
+//! The telescoped form of [`dense`] is the ratio of two Gaussian densities of the endpoint, so its
 //! logarithm is a quadratic in the endpoint's mean whose coefficients depend on nothing but the node and the class of the
 //! endpoint's covariance:
 //!
@@ -12,24 +12,25 @@
 //! |---|---|
 //! | `candidate` | one noise candidate: a filter, by axis or whole |
 //! | `separable` | the filters where axes do not mix |
-//! | `ends` | `m_n, V_n, u_n, U_n` there |
+//! | `axis_endpoint` | `m_n, V_n, u_n, U_n` there |
 //! | `coupled` | both where they do |
 //! | `classes` | the destinations in flat arrays |
-//! | `terms` | the coefficients |
-//! | `leaves` | what can add nothing, of very many destinations |
-//! | `whole` | from separate axes to the whole state and back |
-//! | `math::mixture` | the sum |
+//! | `coefficients` | the coefficients |
+//! | `pruning` | what can add nothing, of very many destinations |
+//! | `conversion` | from separate axes to the whole state and back |
+//! | `math::kernel::mixture` | the sum |
 //!
-//! [`super::pseudo_observation`] says the same densely, one pair at a time; a test holds the two together.
+//! [`dense`] computes the same one pair at a time: the oracle, which a test compares this with.
 
+pub(crate) mod axis_endpoint;
 mod candidate;
 pub(crate) mod classes;
+pub(crate) mod coefficients;
+mod conversion;
 pub(crate) mod coupled;
-pub(crate) mod ends;
-pub(crate) mod leaves;
+pub mod dense;
+pub(crate) mod pruning;
 pub(crate) mod separable;
-pub(crate) mod terms;
-mod whole;
 
 use super::Method;
 use super::candidates::{Movement, advance_filter};
@@ -37,22 +38,22 @@ use super::plan::Plan;
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement};
-use crate::math::lanes::{Block, WIDTH};
+use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use crate::model::motion::Motion;
 use candidate::{Candidate, Source, Tables};
 use classes::{Class, Classes};
+use coefficients::Work;
+use conversion::{axes_of, coupled_of};
 use coupled::Coupled;
 use separable::MOST;
 use std::sync::Arc;
-use terms::Work;
-use whole::{axes_of, coupled_of};
 
 /// A movement so far, with everything that turns it into probabilities.
 ///
 /// ```
 /// use nalgebra::{dmatrix, dvector};
-/// use whither::{Gaussian, Scenario, likelihood::{plan::Plan, telescoped::Telescoped}, scenario::Engine};
+/// use whither::{Gaussian, Scenario, likelihood::{plan::Plan, pseudo_observation::Telescoped}, scenario::Engine};
 /// let scenario: Scenario = serde_json::from_str(r#"{
 ///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
 ///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },

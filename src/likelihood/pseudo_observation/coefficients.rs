@@ -1,4 +1,4 @@
-//! The coefficients: from the endpoint seen from now and from the start to the terms of [`crate::math::mixture`].
+//! The coefficients: from the endpoint seen from now and from the start to the terms of [`crate::math::kernel::mixture`].
 //!
 //! With `d = a - m`, `v = V + S`, `u = U + S` for one axis,
 //!
@@ -8,12 +8,12 @@
 //!
 //! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
 
+use super::axis_endpoint::{AxisEnd, NodeTable, Spread};
 use super::classes::{Class, Classes};
-use super::ends::{AxisEnd, NodeTable, Spread};
-use super::leaves::Bounds;
+use super::pruning::Bounds;
 use super::separable::{Axes, MOST};
-use crate::math::lanes::{Block, Lanes, WIDTH};
-use crate::math::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
+use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
+use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
 use crate::model::destination::Destinations;
 use std::ops::Range;
 
@@ -162,7 +162,7 @@ impl Work {
             weights[class.blocks.clone()].fill(ZERO);
         }
         let mut part = |blocks: &Range<usize>| {
-            let places = classes.layout.places(destinations, blocks, origin);
+            let places = classes.layout.places(destinations.coordinates(), blocks, origin);
             let (priors, weights) = (classes.priors_in(destinations, blocks), &mut weights[blocks.clone()]);
             match class.size {
                 None => weigh_in(d, owns, &places, shift, priors, weights),
@@ -176,7 +176,7 @@ impl Work {
     /// Writes `log2` of the sums of a class, whatever their size.
     #[inline(never)]
     pub fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, class: &Class, logs: &mut [Block]) {
-        let places = classes.layout.places(destinations, &class.blocks, [0.0; AXES]);
+        let places = classes.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]);
         let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
         match class.size {
             None => {

@@ -5,8 +5,8 @@
 //! nodes are worked on at a time.
 
 use super::separable::{AxisFilter, MOST};
-use crate::math::lanes::{Block, Lanes, WIDTH};
-use crate::math::mixture::HALF_LOG2_E;
+use crate::math::kernel::mixture::HALF_LOG2_E;
+use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
 use crate::model::motion::MotionModel;
 
 /// What the endpoint of one axis is, apart from the position's mean and variance, which each destination has of its own.

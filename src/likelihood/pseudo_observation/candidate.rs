@@ -1,15 +1,15 @@
 //! The movement under one noise candidate, and what it sees of the endpoints of a class.
 
+use super::axis_endpoint::{AxisEnd, NodeTable};
 use super::classes::{End, Nodes};
+use super::coefficients::{Sight, Work};
+use super::conversion::coupled_of;
 use super::coupled::{self, Coupled};
-use super::ends::{AxisEnd, NodeTable};
 use super::separable::{Axes, MOST};
-use super::terms::{Sight, Work};
-use super::whole::coupled_of;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
-use crate::math::lanes::Block;
-use crate::math::mixture::AXES;
+use crate::math::kernel::mixture::AXES;
+use crate::math::kernel::vectors::Block;
 use crate::model::motion::{MotionModel, Transition};
 use std::sync::Arc;
 

@@ -11,8 +11,8 @@ use super::Vector;
 use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
 use super::targets::{Class, Targets};
-use crate::math::lanes::{Block, Lanes, raise};
-use crate::math::mixture::{AXES, Density, Places, SharedDensity, weigh_in};
+use crate::math::kernel::mixture::{AXES, Density, Places, SharedDensity, weigh_in};
+use crate::math::kernel::vectors::{Block, Lanes, raise};
 use crate::model::destination::Destinations;
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
@@ -65,7 +65,7 @@ impl Work {
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
         for class in &targets.classes {
             let (places, blocks) =
-                (targets.layout.places(destinations, &class.blocks, [0.0; AXES]), class.blocks.clone());
+                (targets.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]), class.blocks.clone());
             let (over_start, weights) = (&targets.over_start[blocks.clone()], &mut weights[blocks]);
             match &class.covariance {
                 Some(covariance) => {

@@ -4,10 +4,10 @@ use super::course::Onset;
 use super::evidence::{log_near, log_start};
 use super::parameters::Parameters;
 use super::{Symmetric, Vector, minus, vector};
-use crate::likelihood::layout::{FEW, Layout};
-use crate::likelihood::pointing::endpoint::symmetric;
-use crate::math::lanes::{Block, WIDTH};
+use crate::math::kernel::layout::{FEW, Layout};
+use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::{Destinations, Kind};
+use crate::pointing::endpoint::symmetric;
 use std::ops::Range;
 
 /// Powers of `e` beyond this leave too little room for the rest of a product.
@@ -59,7 +59,9 @@ impl Targets {
             }
         }
         self.place(&pool, None);
-        self.layout.finish(destinations);
+        self.layout.finish(destinations.len(), destinations.coordinates(), &|i, axis| {
+            destinations.kind(i).variance(axis, axis)
+        });
         self.onset = None;
         self.begin(destinations, parameters, log_volume, start, Onset::BEGUN);
     }

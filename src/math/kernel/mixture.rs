@@ -17,7 +17,7 @@ mod terms;
 pub use density::{Density, SharedDensity};
 pub use terms::{Ball, Ellipsoid, Own};
 
-use super::lanes::{Block, Lanes, Shift, WIDTH};
+use super::vectors::{Block, Lanes, Shift, WIDTH};
 
 /// Half of `log2(e)`: a density's exponent in base 2 is this times the squared distance.
 pub const HALF_LOG2_E: f64 = 0.5 * std::f64::consts::LOG2_E;

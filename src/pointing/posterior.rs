@@ -1,11 +1,9 @@
 //! The posterior of the pointing model: destinations, none of them, the time to go.
 
-pub mod state;
-
-use super::arrival_time::Arrival;
-use super::{Posterior, Shares};
-use crate::likelihood::pointing::{Pointing, minus, vector};
+use super::{Pointing, minus, vector};
 use crate::model::destination::Destinations;
+use crate::posterior::arrival_time::Arrival;
+use crate::posterior::{Posterior, Shares};
 
 impl Posterior {
     /// The probabilities among the destinations against none of them, whose prior is `none`, with the even share spread
