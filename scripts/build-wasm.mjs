@@ -39,7 +39,7 @@ export async function buildWasm() {
   await incremental("wasm-modules", { inputs: sources, outputs: compiled, doing: null }, async () => {
     for (const [i, module] of modules.entries()) await toWasm(module, compiled[i]);
   });
-  const inputs = [...compiled, "Cargo.lock", "xtask", "package-lock.json", "scripts/build-wasm.mjs"];
+  const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
   await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`), doing: null }, async () => {
     rmSync(join(root, generated), { recursive: true, force: true });
@@ -77,7 +77,7 @@ async function toWasm({ name, features }, file) {
 
 const tools = ["--package", "xtask", "--profile", "xtask", "--target-dir", "target"];
 
-/** The tools of xtask/, wasm-bindgen among them, which take minutes the first time. */
+/** The tools of tools/xtask, wasm-bindgen among them, which take minutes the first time. */
 export const compileTools = () => compile("compiling the tools for WebAssembly, once", ["build", ...tools]);
 
 function xtask(...args) {

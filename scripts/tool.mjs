@@ -1,4 +1,4 @@
-// `npm run evaluate` and `npm run reproduce`: a program of examples/, compiled first where it has changed.
+// `npm run evaluate` and `npm run reproduce`: a program of tools/, compiled first where it has changed.
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,7 +9,7 @@ await main(import.meta.url, async () => {
   const [name, ...args] = process.argv.slice(2);
   // a test of the program holds that it would answer the same
   if (args.includes("--help") || args.includes("-h")) {
-    process.stdout.write(readFileSync(join(root, `examples/${name}/help.txt`), "utf8"));
+    process.stdout.write(readFileSync(join(root, `tools/${name}/help.txt`), "utf8"));
     return;
   }
   const which = ["--profile", "tools", "--package", name];

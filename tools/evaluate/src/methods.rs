@@ -36,7 +36,7 @@ pub struct Template {
 }
 
 impl Template {
-    /// For one file of tracks: the scenario of the same name in `examples/evaluate/scenarios`, where there is one.
+    /// For one file of tracks: the scenario of the same name in `tools/evaluate/scenarios`, where there is one.
     pub fn of(file: &Path) -> Result<Option<Self>, String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
         let own = file.file_stem().map(|stem| folder.join(stem).with_extension("json")).filter(|path| path.exists());

@@ -1,6 +1,5 @@
 //! Probabilities are frequencies, on tracks drawn from the model.
 
-#[path = "../../examples/calibration/simulation.rs"]
 mod simulation;
 
 use simulation::{Family, reliability};
@@ -26,8 +25,8 @@ fn probabilities_are_frequencies_on_tracks_from_the_model() {
     }
 }
 
-/// The test can fail: the approximation of (15) is not calibrated on the same tracks.
+/// The approximation of (15), on the same tracks: the test above can fail.
 #[test]
-fn the_approximation_is_found_out() {
+fn the_approximation_is_not_calibrated() {
     assert!(worst("singleFilterApproximate", Family::Independent, 3) > 6.0);
 }

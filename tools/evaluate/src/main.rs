@@ -46,7 +46,7 @@ struct Arguments {
     files: Vec<PathBuf>,
     /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?}: the scenario without its destinations,
     /// keys that each of them gets, and what is added to their sizes where it is the track file's own. Where
-    /// examples/evaluate/scenarios has one of the same name as a track file, it is used.
+    /// tools/evaluate/scenarios has one of the same name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
     /// Ask the first of our scenarios two more things: the time to the entry, and "none of them" with the target taken out of
@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn the_help_is_what_scripts_print_without_compiling() {
         let help = Arguments::command().term_width(100).render_long_help().to_string();
-        assert_eq!(include_str!("../help.txt"), help, "examples/evaluate/help.txt has to be:\n{help}");
+        assert_eq!(include_str!("../help.txt"), help, "tools/evaluate/help.txt has to be:\n{help}");
     }
 
     #[test]

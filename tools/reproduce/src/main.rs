@@ -79,6 +79,6 @@ mod tests {
     #[test]
     fn the_help_is_what_scripts_print_without_compiling() {
         let help = Arguments::command().term_width(100).render_long_help().to_string();
-        assert_eq!(include_str!("../help.txt"), help, "examples/reproduce/help.txt has to be:\n{help}");
+        assert_eq!(include_str!("../help.txt"), help, "tools/reproduce/help.txt has to be:\n{help}");
     }
 }

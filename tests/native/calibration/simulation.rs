@@ -48,7 +48,7 @@ pub struct Track {
     pub observations: Vec<(f64, [f64; 2])>,
 }
 
-fn weighed(random: &mut Random, weights: impl Iterator<Item = f64> + Clone) -> usize {
+fn categorical(random: &mut Random, weights: impl Iterator<Item = f64> + Clone) -> usize {
     let mut left = random.uniform() * weights.clone().sum::<f64>();
     for (i, weight) in weights.clone().enumerate() {
         left -= weight;
@@ -69,9 +69,9 @@ fn drawn(random: &mut Random, mean: &DVector<f64>, covariance: &DMatrix<f64>) ->
 /// One track with this many observations, all before the arrival.
 pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Random) -> Track {
     let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { unreachable!() };
-    let destination = weighed(random, scenario.destinations.priors().iter().copied());
+    let destination = categorical(random, scenario.destinations.priors().iter().copied());
     let grid = arrival.grid(quadrature, 0.0, 1.0);
-    let arrives = grid.times[weighed(random, grid.log_weights.iter().map(|log| log.exp()))];
+    let arrives = grid.times[categorical(random, grid.log_weights.iter().map(|log| log.exp()))];
     let motion = scenario.motion.candidates[0].model.as_ref();
     let noise = scenario.observation.noise();
 
@@ -79,10 +79,10 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
         mean: DVector::from_column_slice(&[0.0, 0.0, 1.0, 0.0]),
         covariance: DMatrix::from_diagonal(&DVector::from_column_slice(&[4.0, 4.0, 1.0, 1.0])),
     };
-    let seen = DMatrix::identity(2, 4);
-    let observe = |state: &DVector<f64>, random: &mut Random| drawn(random, &(&seen * state), noise);
+    let matrix = DMatrix::identity(2, 4);
+    let observe = |state: &DVector<f64>, random: &mut Random| drawn(random, &(&matrix * state), noise);
     let first = drawn(random, &before.mean, &before.covariance);
-    let first_seen = observe(&first, random);
+    let first_observed = observe(&first, random);
     let (mean, spread) =
         (scenario.destinations.mean(destination), &scenario.destinations.kind(destination).covariance());
     let target = DVector::from_vec(mean);
@@ -90,20 +90,20 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
         Family::Independent => (first, drawn(random, &target, spread)),
         Family::PseudoObservation => {
             // x_1 given y_1 and the pseudo-observation, then x_T given x_1 and the pseudo-observation
-            let given = condition(&before.covariance, &seen, noise).expect("a density");
-            let mean = &before.mean + &given.gain * (&first_seen - &seen * &before.mean);
+            let given = condition(&before.covariance, &matrix, noise).expect("a density");
+            let mean = &before.mean + &given.gain * (&first_observed - &matrix * &before.mean);
             let way = Endpoint::after(motion, arrives, target.len());
             let pseudo = condition(&given.covariance(), &way.matrix, &(&way.noise + spread)).expect("a density");
             let mean = &mean + &pseudo.gain * (&target - &way.matrix * &mean);
             let state = drawn(random, &mean, &pseudo.covariance());
-            let whole = DMatrix::identity(target.len(), target.len());
-            let end = condition(&way.noise, &whole, spread).expect("a density");
+            let identity = DMatrix::identity(target.len(), target.len());
+            let end = condition(&way.noise, &identity, spread).expect("a density");
             let ahead = &way.matrix * &state;
             let mean = &ahead + &end.gain * (&target - &ahead);
             (state, drawn(random, &mean, &end.covariance()))
         }
     };
-    let mut observations = vec![(0.0, [first_seen[0], first_seen[1]])];
+    let mut observations = vec![(0.0, [first_observed[0], first_observed[1]])];
     let step = 5.0 / count as f64;
     for k in 1..count {
         let time = step * k as f64;
@@ -114,7 +114,7 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
     Track { destination, observations }
 }
 
-/// One step towards a known end.
+/// One step towards a known endpoint.
 fn bridged(
     motion: &dyn MotionModel,
     state: &DVector<f64>,
@@ -134,7 +134,7 @@ pub struct Bin {
     /// How many probabilities were in it.
     pub count: f64,
     /// Their sum.
-    pub said: f64,
+    pub predicted: f64,
     /// How many of them were of the true destination.
     pub right: f64,
     /// The variance of that number, if they are right.
@@ -144,7 +144,7 @@ pub struct Bin {
 impl Bin {
     /// How far it is from what it should be, in standard deviations.
     pub fn deviations(&self) -> f64 {
-        if self.variance > 0.0 { (self.right - self.said) / self.variance.sqrt() } else { 0.0 }
+        if self.variance > 0.0 { (self.right - self.predicted) / self.variance.sqrt() } else { 0.0 }
     }
 }
 
@@ -162,7 +162,7 @@ pub fn reliability(method: &str, family: Family, tracks: usize, count: usize, se
         for (i, &p) in predictor.probabilities().iter().enumerate() {
             let bin = &mut bins[((p * 10.0) as usize).min(9)];
             bin.count += 1.0;
-            bin.said += p;
+            bin.predicted += p;
             bin.right += f64::from(u8::from(i == track.destination));
             bin.variance += p * (1.0 - p);
         }
