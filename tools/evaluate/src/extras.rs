@@ -2,7 +2,7 @@
 //! tracks, and how good is the time to the entry into the target.
 
 use crate::methods::Template;
-use crate::report::table;
+use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use whither::study::metrics::{BINS, Bin, calibration_error};

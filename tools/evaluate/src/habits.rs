@@ -1,7 +1,7 @@
 //! `--habits`: what an application gains by learning which targets are likely, on simulated users with habits.
 
 use crate::methods::Template;
-use crate::report::table;
+use presentation::table;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use whither::math::random::Random;

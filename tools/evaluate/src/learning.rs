@@ -2,8 +2,7 @@
 
 use crate::methods::Template;
 use crate::reading;
-use crate::report::table;
-use indicatif::{ProgressBar, ProgressStyle};
+use presentation::{progress, table};
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -85,8 +84,7 @@ fn own(tracks: &[Track]) -> Vec<Task<'_>> {
 }
 
 fn learn(template: &Template, set: &str, constants: &[String], tasks: &[Task<'_>]) -> Result<Gain, String> {
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}").map_err(|error| error.to_string())?;
-    let bar = ProgressBar::new(1000 * tasks.len() as u64).with_style(style).with_message(format!("{set}: learning"));
+    let bar = progress(1000 * tasks.len() as u64, format!("{set}: learning"));
     let options = Options { constants: constants.to_vec(), ..Options::default() };
     let told = |error: whither::Error| error.to_string();
     let gains = tasks.par_iter().map(|task| {

@@ -97,7 +97,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return Err("--every must be at least 1".to_owned());
     }
     if arguments.habits {
-        return report::write(&arguments.json, &json!({ "habits": habits::run(&Template::pointer()?)? }));
+        return report::write_json(&arguments.json, &json!({ "habits": habits::run(&Template::pointer()?)? }));
     }
     if arguments.sweep {
         return in_place_of_scores(arguments, "sweep", |file, into| {
@@ -120,8 +120,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     results.print(arguments.users);
     let extras = more.map(|sums| extras::report(&sums));
     told_skipped(skipped);
-    results.write_json(&arguments.json, extras)?;
-    let charts = chart::write(&results, &arguments.charts)?;
+    results.write(&arguments.json, extras)?;
+    let charts = chart::write_all(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
 }
@@ -141,7 +141,7 @@ fn in_place_of_scores(
     if all.is_empty() {
         return Err(NOTHING.to_owned());
     }
-    report::write(&arguments.json, &json!({ key: all }))?;
+    report::write_json(&arguments.json, &json!({ key: all }))?;
     println!("report: {}", arguments.json.display());
     Ok(())
 }

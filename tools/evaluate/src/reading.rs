@@ -1,6 +1,6 @@
 //! Track files, one JSON object a line, read in batches so that a file of any length takes the same memory.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use presentation::progress;
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -101,8 +101,7 @@ pub fn each<T: Send>(
     mut take: impl FnMut(T),
 ) -> Result<usize, String> {
     let size = std::fs::metadata(path).map_err(|error| format!("{}: {error}", path.display()))?.len();
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}% {eta}").map_err(|error| error.to_string())?;
-    let bar = ProgressBar::new(size).with_style(style).with_message(name(path));
+    let bar = progress(size, name(path));
     let mut faults = Faults::default();
     in_batches(path, |lines, bytes| {
         let done: Vec<_> = lines.par_iter().map(&work).collect();

@@ -1,7 +1,7 @@
 //! What was measured, as tables and as JSON.
 
 use crate::methods::Method;
-use comfy_table::{CellAlignment, Table, presets};
+use presentation::{table, write};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -145,34 +145,19 @@ impl Results {
     }
 
     /// Writes everything as JSON.
-    pub fn write_json(&self, path: &Path, more: Option<Json>) -> Result<(), String> {
+    pub fn write(&self, path: &Path, more: Option<Json>) -> Result<(), String> {
         let sets: Vec<Json> = self
             .sets
             .iter()
             .map(|set| json!({ "set": set.name, "methods": set.rows.iter().map(Row::json).collect::<Vec<_>>() }))
             .collect();
-        write(path, &json!({ "sets": sets, "more": more }))
+        write_json(path, &json!({ "sets": sets, "more": more }))
     }
 }
 
-/// A table in Markdown: so many columns of text, and numbers after them.
-pub fn table(header: impl Into<comfy_table::Row>, texts: usize) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN);
-    table.set_header(header);
-    for column in table.column_iter_mut().skip(texts) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
-}
-
-/// Writes JSON, and the folders that it lies in.
-pub fn write(path: &Path, report: &Json) -> Result<(), String> {
-    let text = serde_json::to_string_pretty(report).map_err(|error| error.to_string())?;
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+/// Writes JSON.
+pub fn write_json(path: &Path, report: &Json) -> Result<(), String> {
+    write(path, &serde_json::to_string_pretty(report).map_err(|error| error.to_string())?)
 }
 
 fn print_users(row: &Row, at: &str) {

@@ -2,8 +2,8 @@
 
 use crate::peers::Peer;
 use crate::reading::{self, Line};
-use crate::report::table;
 use crate::variants::{ALL, Variant};
+use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::Path;

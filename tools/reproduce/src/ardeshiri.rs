@@ -3,11 +3,10 @@
 use crate::Effort;
 use crate::gestures::{self, Gesture, gesture, predictor_of};
 use crate::movement::{Movement, beliefs, mean, percent, share_on_top, top};
-use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::random::Normals;
 use crate::report::{Chapter, Exhibit, Table};
-use indicatif::ProgressBar;
 use nalgebra::Vector3;
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
 
 /// Exact, and with the denominator taken as constant.
 const METHODS: [&str; 2] = ["singleFilter", "singleFilterApproximate"];

@@ -4,7 +4,7 @@
 use crate::liang::{pointing, vessels};
 use crate::movement::mean;
 use crate::{Effort, ardeshiri, gestures, rezaie_li};
-use indicatif::ProgressBar;
+use presentation::ProgressBar;
 
 /// The paper: "very similar". Where the velocity at the start is unknown they are not: the two ends are then not independent.
 #[test]

@@ -8,13 +8,12 @@ mod gestures;
 mod headlines;
 mod liang;
 mod movement;
-mod plot;
 mod random;
 mod report;
 mod rezaie_li;
 
 use clap::Parser;
-use indicatif::{ProgressBar, ProgressStyle};
+use presentation::{ProgressBar, progress, write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -40,9 +39,8 @@ struct Arguments {
 fn main() -> ExitCode {
     let effort = if Arguments::parse().quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
-    let progress = ProgressBar::new(rezaie_li::work(effort) + liang::work(effort) + ardeshiri::work(effort));
-    let style = ProgressStyle::with_template("{bar:30} {percent:>3}% {elapsed} {msg}").expect("the template is legal");
-    progress.set_style(style);
+    let work = rezaie_li::work(effort) + liang::work(effort) + ardeshiri::work(effort);
+    let progress = progress(work, String::new());
     let papers: [fn(Effort, &ProgressBar) -> report::Chapter; 3] =
         [liang::chapter, ardeshiri::chapter, rezaie_li::chapter];
     let chapters = papers.map(|chapter| {
@@ -59,12 +57,9 @@ fn main() -> ExitCode {
          Seeded: every run gives the same numbers, but for the run times.{}",
         if matches!(effort, Effort::Quick) { " This is a quick run with fewer tracks." } else { "" }
     );
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/reproduce");
-    let file = folder.join("index.html");
-    if let Err(error) =
-        std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&file, report::page(&chapters, &introduction)))
-    {
-        eprintln!("{}: {error}", file.display());
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/reproduce/index.html");
+    if let Err(error) = write(&file, &report::page(&chapters, &introduction)) {
+        eprintln!("{error}");
         return ExitCode::FAILURE;
     }
     println!("target/reproduce/index.html ({:.0} s)", start.elapsed().as_secs_f64());

@@ -18,8 +18,8 @@ impl Table {
     }
 
     fn print(&self) {
-        let mut table = comfy_table::Table::new();
-        table.load_style(comfy_table::presets::ASCII_MARKDOWN).set_header(&self.headings).add_rows(&self.rows);
+        let mut table = presentation::table(&self.headings, self.headings.len());
+        table.add_rows(&self.rows);
         println!("{table}\n");
     }
 

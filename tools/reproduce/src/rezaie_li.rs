@@ -1,9 +1,8 @@
 //! Rezaie and Li, "Destination-Directed Trajectory Modeling and Prediction Using Conditionally Markov Sequences", section IV.
 
-use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::report::{Chapter, Exhibit};
 use crate::{Effort, random};
-use indicatif::ProgressBar;
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
 use serde_json::json;
 use whither::{ConditionallyMarkovSequence, Value};
 

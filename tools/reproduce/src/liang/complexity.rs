@@ -5,7 +5,7 @@ use crate::movement::{METHODS, median};
 use crate::random::Normals;
 use crate::report::{Exhibit, Table};
 use crate::{Effort, movement};
-use indicatif::ProgressBar;
+use presentation::ProgressBar;
 use std::hint::black_box;
 use std::time::Instant;
 use whither::{Predictor, Scenario};

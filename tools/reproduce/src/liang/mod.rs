@@ -7,7 +7,7 @@ pub mod vessels;
 
 use crate::Effort;
 use crate::report::Chapter;
-use indicatif::ProgressBar;
+use presentation::ProgressBar;
 
 pub fn work(effort: Effort) -> u64 {
     vessels::work(effort) + complexity::work(effort) + pointing::work(effort)

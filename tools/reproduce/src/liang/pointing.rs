@@ -3,9 +3,8 @@
 use crate::Effort;
 use crate::gestures::{self, Gesture, predictor_of};
 use crate::movement::{METHODS, beliefs, mean, percent, share_on_top};
-use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::report::{Exhibit, Table};
-use indicatif::ProgressBar;
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
 
 const SIGMAS: [f64; 10] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// The families: within each the methods are the same to rounding.

@@ -2,11 +2,9 @@
 
 use super::prediction_error::distances;
 use crate::movement::{METHODS, Movement, beliefs, mean, median, percent, scenario, share_on_top};
-use crate::plot::{COLOURS, Corner, Panel, Series, Stroke, chart};
 use crate::report::{Exhibit, Table};
 use crate::{Effort, random};
-use indicatif::ProgressBar;
-use plotters::style::RGBColor;
+use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke, chart};
 use serde_json::json;
 use whither::{ConditionallyMarkovSequence, Scenario, Value};
 

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use std::ops::Range;
 
 /// Colours that people with any colour vision can tell apart (Okabe and Ito).
-pub const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -13,6 +13,7 @@ pub const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
     RGBColor(60, 60, 60),
+    RGBColor(150, 150, 150),
 ];
 const INK: RGBColor = RGBColor(29, 33, 41);
 const GRID: RGBColor = RGBColor(226, 229, 235);
@@ -28,7 +29,7 @@ pub enum Stroke {
 
 /// A line through points.
 pub struct Series {
-    /// What the legend says; the same text is there once, an empty one never.
+    /// The text in the legend; one that repeats is shown once, an empty one never.
     pub label: String,
     pub points: Vec<(f64, f64)>,
     pub colour: RGBColor,
@@ -60,7 +61,7 @@ pub struct Panel {
     pub title: String,
     pub x: (&'static str, Range<f64>),
     pub y: (&'static str, Range<f64>),
-    /// Where the legend stands clear of the lines.
+    /// Where the legend is clear of the lines.
     pub legend: Corner,
     pub series: Vec<Series>,
 }
