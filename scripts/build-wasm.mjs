@@ -84,13 +84,13 @@ function xtask(...args) {
   return run("cargo", ["run", "--quiet", ...tools, "--", ...args]);
 }
 
-/** The classes that call WebAssembly and the functions that it calls. `js/start.ts` brings both together. */
+/** The classes that call WebAssembly and the functions that it calls. `js/core/loading/instantiate.ts` joins both. */
 async function bindgen(snipped, name) {
   const options = ["--target", "bundler", "--remove-producers-section"];
   await xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, snipped);
   const file = (end) => join(root, generated, `${name}${end}`);
-  // What it would make when it is imported, `js/platform.ts` makes when it is used.
-  const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../platform.ts";\n';
+  // What it would make when it is imported, `js/core/loading/platform.ts` makes at its first use.
+  const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../core/loading/platform.ts";\n';
   const code = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function __wb(?!g_set_wasm\b))/gm, "");
   const called = imported(file("_bg.wasm")).map(({ name }) => name);
   await xtask("number", file("_bg.wasm"), file("_bg.wasm"));

@@ -45,7 +45,7 @@ export async function build() {
     await declare();
     for (const { name } of modules) {
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
-      copyFileSync(join(root, "js/module.d.ts"), join(dist, `${name}.wasm.d.ts`));
+      copyFileSync(join(root, "js/entries/module.d.ts"), join(dist, `${name}.wasm.d.ts`));
     }
     for (const name of beside) {
       writeFileSync(join(root, `${name}.js`), `export * from "./dist/${name}.js";\n`);
@@ -66,7 +66,7 @@ async function bundle() {
       ...small,
       ...readable,
       absWorkingDir: root,
-      entryPoints: entries.map((name) => `js/${name}.ts`),
+      entryPoints: entries.map((name) => `js/entries/${name}.ts`),
       outdir: "dist",
       bundle: true,
       splitting: entries.length > 1,
@@ -77,7 +77,7 @@ async function bundle() {
   }
   for (const name of apart) {
     const error = name === "error";
-    const source = error ? `js/${name}.ts` : `js/${name}.js`;
+    const source = error ? `js/core/${name}.ts` : `js/${name}.js`;
     await esbuild.build({ ...small, ...(error ? readable : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
   }
   const found = readdirSync(dist).filter((name) => !name.endsWith(".map")).sort().join(" ");
@@ -101,7 +101,7 @@ function keepApart({ onResolve }, module) {
 async function declare() {
   const { rollup } = await import("rollup");
   const { dts } = await import("rollup-plugin-dts");
-  const input = Object.fromEntries(["index", "slim", "pointing", "study"].map((name) => [name, `js/${name}.ts`]));
+  const input = Object.fromEntries(["index", "slim", "pointing", "study"].map((name) => [name, `js/entries/${name}.ts`]));
   const bundle = await rollup({ input, plugins: [dts({ tsconfig: join(root, "tsconfig.json") })] });
   await bundle.write({
     dir: join(dist, "types"),

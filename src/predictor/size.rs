@@ -1,4 +1,4 @@
-//! How much a predictor has of what takes memory: the package asks for it before a call (`js/room.ts`).
+//! How much a predictor has of what takes memory: the package asks for it before a call (`js/core/memory.ts`).
 
 use super::Predictor;
 use crate::likelihood::Method;

@@ -1,4 +1,4 @@
-//! A [`Value`] as JavaScript's plain data. `js/value.ts` has copied all of a user's object before it comes here.
+//! A [`Value`] as JavaScript's plain data. `js/core/plain.ts` has copied all of a user's object before it comes here.
 
 use crate::error::{Code, Error, Result};
 use crate::value::Value;
@@ -6,7 +6,7 @@ use js_sys::{Array, Object};
 use serde::Serialize;
 use wasm_bindgen::{JsCast, JsValue};
 
-/// The value that `js/value.ts` copied. Read by hand: deserialising brings in its own messages, and with them all that prints
+/// The value that `js/core/plain.ts` copied. Read by hand: deserialising brings in its own messages, and with them all that prints
 /// numbers, 14 kB under gzip.
 ///
 /// # Errors

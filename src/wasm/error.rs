@@ -3,9 +3,9 @@
 use crate::error::Error;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[wasm_bindgen(raw_module = "../error.ts")]
+#[wasm_bindgen(raw_module = "../core/error.ts")]
 extern "C" {
-    /// The class of `js/error.ts`; the generated code that imports it lies in `js/generated`.
+    /// The class of `js/core/error.ts`; the generated code that imports it lies in `js/generated`.
     #[derive(Debug)]
     pub type WhitherError;
 

@@ -1,4 +1,4 @@
-//! What `js/study.ts` stands on.
+//! Bindings behind `js/study/fit.ts`.
 
 use super::{Result, data};
 use crate::error::Code;
@@ -10,12 +10,12 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
-    /// Who is told how far a search has come; `js/study.ts` sees to it that it does not throw.
+    /// Receives the progress of a search; `js/study/fit.ts` catches what it throws.
     #[derive(Debug)]
     pub type Listener;
 
     #[wasm_bindgen(structural, method)]
-    fn tell(this: &Listener, share: f64, loss: f64) -> bool;
+    fn report(this: &Listener, share: f64, loss: f64) -> bool;
 }
 
 /// Learns constants from `{ tracks, scenario, constants?, evaluations?, destination? }`: the scenario with them, what they
@@ -41,8 +41,8 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
         Some(node) if matches!(node.value(), Value::Map(_)) => node.value().clone(),
         Some(node) => return Err(node.error(Code::WrongType, "must be an object").into()),
     };
-    let tell = &mut |progress: Progress| listener.tell(progress.share, progress.loss);
-    let fitted = fit::fit(&tracks, scenario.value(), &extra, &options, tell)?;
+    let report = &mut |progress: Progress| listener.report(progress.share, progress.loss);
+    let fitted = fit::fit(&tracks, scenario.value(), &extra, &options, report)?;
     let constants = fitted.constants.iter().map(|(path, before, after)| {
         Value::map([("path", Value::text(path)), ("before", Value::Number(*before)), ("after", Value::Number(*after))])
     });

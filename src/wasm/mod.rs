@@ -7,11 +7,11 @@ mod data;
 mod error;
 #[cfg(feature = "wasm-fit")]
 mod fit;
+mod memory;
 #[cfg(feature = "wasm")]
 mod pointer;
 #[cfg(feature = "wasm")]
 mod predictor;
-mod room;
 #[cfg(feature = "wasm")]
 mod sequence;
 

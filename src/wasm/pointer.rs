@@ -1,4 +1,4 @@
-//! What `js/pointer.ts` stands on.
+//! Bindings behind `js/pointing/scenario.ts`.
 
 use super::{Result, data};
 use crate::pointer::{self, PointerOptions, PointerTarget};

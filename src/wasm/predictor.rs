@@ -1,4 +1,4 @@
-//! What `js/predictor.ts` stands on.
+//! Bindings behind `js/core/predictor.ts`.
 
 use super::{Result, data, flat};
 use crate::predictor::Predictor;

@@ -1,4 +1,4 @@
-//! What `js/sequence.ts` stands on.
+//! Bindings behind `js/core/sequence.ts`.
 
 use super::{Result, data, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};

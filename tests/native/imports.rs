@@ -26,11 +26,13 @@ const RUST: [(&str, &[&str]); 14] = [
 /// Engines never import one another.
 const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
-/// Who may name the generated code and its one importer.
-const JAVASCRIPT: [(&str, &[&str]); 2] = [
-    ("./generated/", &["glue", "embedded", "learn", "study"]),
-    ("./glue.js", &["loading", "predicting", "predictor", "room", "sequence", "pointer"]),
-];
+/// Each folder of js/ and the others that it may import.
+const JAVASCRIPT: [(&str, &[&str]); 4] =
+    [("core", &[]), ("pointing", &["core"]), ("study", &["core"]), ("entries", &["core", "pointing", "study"])];
+
+/// Who imports the generated code.
+const GENERATED: [&str; 4] =
+    ["js/core/loading/embedded.ts", "js/core/loading/instance.ts", "js/entries/study.ts", "js/study/fit.ts"];
 
 const LONGEST: usize = 450;
 
@@ -110,25 +112,49 @@ fn imports_go_one_way() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// The folder of js/ that a file there imports by `path`.
+fn folder_of(file: &str, path: &str) -> String {
+    let mut parts: Vec<&str> = file.split('/').collect();
+    parts.pop();
+    for step in path.split('/') {
+        match step {
+            "." => (),
+            ".." => drop(parts.pop()),
+            name => parts.push(name),
+        }
+    }
+    parts.get(1).copied().unwrap_or_default().to_owned()
+}
+
 #[test]
-fn javascript_reaches_the_generated_code_through_one_file() {
+fn javascript_imports_go_one_way() {
+    let legal: BTreeMap<&str, &[&str]> = JAVASCRIPT.into_iter().collect();
     let mut wrong = Vec::new();
-    for (name, text) in files("js", ".ts") {
-        let file = name["js/".len()..].trim_end_matches(".ts").to_owned();
-        let imports = text.split(['\n', ';']).filter(|line| line.contains(" from \""));
-        for line in imports {
-            for (import, who) in JAVASCRIPT {
-                if line.contains(&format!("from \"{import}")) && !who.contains(&file.as_str()) {
-                    wrong.push(format!("{name}: {}", line.trim()));
-                }
+    for (name, text) in files("js", ".ts").into_iter().filter(|(name, _)| !name.starts_with("js/generated/")) {
+        let own = name.split('/').nth(1).unwrap();
+        let may = legal.get(own).unwrap_or_else(|| panic!("{name} belongs to no folder of js/"));
+        for path in text.split(" from \"").skip(1).filter_map(|rest| rest.split('"').next()) {
+            let imported = folder_of(&name, path);
+            let legal = match imported.as_str() {
+                "generated" => GENERATED.contains(&name.as_str()),
+                folder => folder == own || may.contains(&folder),
+            };
+            if path.starts_with('.') && !legal {
+                wrong.push(format!("{name}: {path}"));
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_page_imports_the_package_by_its_name() {
+    let mut wrong = Vec::new();
     for (name, text) in files("www", ".ts") {
         for line in
             text.lines().filter(|line| line.contains(" from \"../") && (line.contains("js/") || line.contains("dist/")))
         {
-            wrong.push(format!("{name}: {line}: the page imports the package by its name"));
+            wrong.push(format!("{name}: {line}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

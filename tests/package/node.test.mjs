@@ -114,7 +114,7 @@ test("in Node", async (t) => {
           const lines = output.split("\n");
           const longest = Math.max(...lines.map((line) => line.length));
           assert.ok(lines.length < 32 && longest < 600, `${entry} ${what}: ${lines.length} lines, the longest of ${longest}`);
-          if (flags.length > 0) assert.match(output, /js\/\w+\.ts:\d+/, `${entry} ${what}`);
+          if (flags.length > 0) assert.match(output, /js\/[\w/-]+\.ts:\d+/, `${entry} ${what}`);
         }
       }
     }

@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
+import { WhitherError } from "../error.js";
 
 /**
  * A compiled `WebAssembly.Module`. Named so plainly that the declarations need neither the DOM library nor Node's types.
@@ -40,7 +40,7 @@ export type WasmSource = WasmLocation | PromiseLike<WasmLocation>;
  * @throws {@link WhitherError} `wasm-unavailable`, where the address does not answer with WebAssembly, or WebAssembly is not
  * allowed here; `wrong-type` for anything that is no source.
  */
-export async function compiled(source: () => WasmSource): Promise<WebAssembly.Module> {
+export async function compile(source: () => WasmSource): Promise<WebAssembly.Module> {
   possible();
   let given: WasmLocation;
   try {
@@ -59,7 +59,7 @@ export async function compiled(source: () => WasmSource): Promise<WebAssembly.Mo
 }
 
 /** Compiles without waiting, for `initSync`. */
-export function compiledNow(source: ArrayBuffer | ArrayBufferView | CompiledModule): WebAssembly.Module {
+export function compileNow(source: ArrayBuffer | ArrayBufferView | CompiledModule): WebAssembly.Module {
   possible();
   if (isModule(source)) return source;
   if (!isBytes(source)) throw wrongType("module", "a WebAssembly.Module or its bytes");

@@ -3,11 +3,13 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
-import { loadWith } from "./loading.js";
-import type { WasmSource } from "./source.js";
+import { WhitherError } from "../core/error.js";
+import { loadWith } from "../core/loading/init.js";
+import type { WasmSource } from "../core/loading/source.js";
 
-export * from "./exports.js";
+export * from "../core/exports.js";
+export * from "../core/sequence.js";
+export * from "../pointing/scenario.js";
 
 /** What {@link init} takes here: where the WebAssembly is. */
 export interface SlimInitOptions {

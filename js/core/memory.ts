@@ -5,8 +5,8 @@
  * @module
  */
 import { WhitherError } from "./error.js";
-import { make_room, memory, type Engine } from "./glue.js";
-import { MOST_VALUES, plain } from "./value.js";
+import { reserve_memory, memory, type Engine } from "./loading/instance.js";
+import { MOST_VALUES, plainCopy } from "./plain.js";
 
 /** What any call may take without asking, in bytes. */
 const SMALL = 2 ** 20;
@@ -19,14 +19,14 @@ const ALWAYS = 64 * SMALL;
  *
  * @throws {@link WhitherError} `too-large`.
  */
-export function room(bytes: number): void {
-  if (memory().byteLength + bytes + SMALL <= ALWAYS || make_room(bytes + SMALL)) return;
+export function reserve(bytes: number): void {
+  if (memory().byteLength + bytes + SMALL <= ALWAYS || reserve_memory(bytes + SMALL)) return;
   const much = `${Math.ceil(bytes / SMALL)} MB of memory`;
   throw new WhitherError("too-large", "", `this may take ${much}, more than is left: free() what is not needed any more`);
 }
 
 /** Whether so much memory is taken that even what is small has to be asked for. */
-export function isShort(): boolean {
+export function isScarce(): boolean {
   return memory().byteLength > ALWAYS / 2;
 }
 
@@ -37,8 +37,8 @@ export function isShort(): boolean {
  * @param name - What every path in an error begins with; nothing for a scenario.
  * @param times - How often all of it is there at once.
  */
-export function handed(value: unknown, name = "", times = 1): unknown {
-  return plain(value, name, (bytes) => room(times * bytes));
+export function copyIn(value: unknown, name = "", times = 1): unknown {
+  return plainCopy(value, name, (bytes) => reserve(times * bytes));
 }
 
 /** Bounds of what a predictor takes, in bytes. */

@@ -1,12 +1,11 @@
 /**
- * What every entry that predicts exports besides its own `init`.
+ * What every entry with a {@link Predictor} exports besides its own `init`.
  *
  * @module
  */
 export { WhitherError, type ErrorCode } from "./error.js";
 export type { Gaussian } from "./gaussian.js";
-export { initSync } from "./glue.js";
-export { pointerScenario } from "./pointer.js";
+export { initSync } from "./loading/instance.js";
 export {
   Predictor,
   type ArrivalTime,
@@ -17,4 +16,4 @@ export {
   type Snapshot,
 } from "./predictor.js";
 export type * from "./scenario.js";
-export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "./source.js";
+export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "./loading/source.js";

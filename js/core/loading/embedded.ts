@@ -3,8 +3,8 @@
  *
  * @module
  */
-import { base64 } from "./generated/bytes.js";
-import { loadWith, type InitOptions } from "./loading.js";
+import { base64 } from "../../generated/bytes.js";
+import { loadWith, type InitOptions } from "./init.js";
 import { unpack } from "./unpack.js";
 
 export type { InitOptions };

@@ -373,23 +373,3 @@ export interface Pointing {
       }
     | undefined;
 }
-
-/** Something on a screen that a pointer may be going to. */
-export interface PointerTarget {
-  /** Its name; no two are the same. */
-  readonly id: string;
-  /** Its centre, in px from the left. */
-  readonly x: number;
-  /** Its centre, in px from the top. */
-  readonly y: number;
-  /** In px. */
-  readonly width: number;
-  /** In px. */
-  readonly height: number;
-}
-
-/** What `pointerScenario` leaves to the application. */
-export interface PointerOptions {
-  /** The prior probability that the pointer is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
-  readonly none?: number | undefined;
-}

@@ -1,10 +1,10 @@
 /**
- * What every `init` does.
+ * What every `init` has in common.
  *
  * @module
  */
-import { load } from "./glue.js";
-import { checkOptions } from "./options.js";
+import { load } from "./instance.js";
+import { checkOptions } from "../options.js";
 import type { WasmSource } from "./source.js";
 
 /** What `init` takes. */
@@ -13,7 +13,7 @@ export interface InitOptions {
   readonly wasm?: WasmSource | undefined;
 }
 
-/** Loads from what `choose` makes of the place that the options name. */
+/** Loads from the source that `choose` returns for the one in the options. */
 export function loadWith(options: InitOptions | undefined, choose: (wasm?: WasmSource) => WasmSource): Promise<void> {
   try {
     checkOptions(options, ["wasm"]);

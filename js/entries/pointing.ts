@@ -14,5 +14,6 @@
  *
  * @module
  */
-export { init, type InitOptions } from "./embedded.js";
-export * from "./predicting.js";
+export { init, type InitOptions } from "../core/loading/embedded.js";
+export * from "../core/exports.js";
+export * from "../pointing/scenario.js";

@@ -4,7 +4,7 @@
  * @module
  */
 import { WhitherError } from "./error.js";
-import { isList } from "./value.js";
+import { isList } from "./plain.js";
 
 /**
  * Refuses what is no object, and keys that nothing reads. Nothing at all is as good as no options, `undefined` under a key as good

@@ -1,6 +1,6 @@
 /**
- * What the generated code takes from its surroundings, under the same names, made when it is first used: the generated code makes
- * them where it is imported, and nothing may happen there.
+ * The platform's classes that the generated code uses, under their own names, made at their first use: the generated code makes
+ * them where it is imported, and an import must have no effect.
  *
  * @module
  */

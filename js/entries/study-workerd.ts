@@ -3,11 +3,11 @@
  *
  * @module
  */
-import { learn } from "./learn.js";
+import { fitWith } from "../study/fit.js";
 import compiledModule from "./study.wasm";
 import type { fit as Fit } from "./study.js";
 
-export { WhitherError } from "./error.js";
+export { WhitherError } from "../core/error.js";
 
 /** As in `whither/study`. */
-export const fit: typeof Fit = (tracks, scenario, options) => learn(() => compiledModule, tracks, scenario, options);
+export const fit: typeof Fit = (tracks, scenario, options) => fitWith(() => compiledModule, tracks, scenario, options);

@@ -1,9 +1,9 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { gaussian, type Gaussian } from "./gaussian.js";
-import { loaded, SequenceEngine } from "./glue.js";
+import { loaded, SequenceEngine } from "./loading/instance.js";
 import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
-import { handed, room } from "./room.js";
+import { copyIn, reserve } from "./memory.js";
 import type { Matrix, Motion, Observation, Vector } from "./scenario.js";
 
 /** A sequence that is induced by a motion model, from an origin to a destination, by way of waypoints if there are any. */
@@ -98,7 +98,7 @@ export class ConditionallyMarkovSequence {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = parameters;
-    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(handed(given));
+    this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(copyIn(given));
   }
 
   /**
@@ -108,7 +108,7 @@ export class ConditionallyMarkovSequence {
    */
   static fromParameters(parameters: GivenSequence): ConditionallyMarkovSequence {
     loaded();
-    return adopt(SequenceEngine.from_parameters(handed(parameters)));
+    return adopt(SequenceEngine.from_parameters(copyIn(parameters)));
   }
 
   /**
@@ -119,7 +119,7 @@ export class ConditionallyMarkovSequence {
    */
   model(step: number): StepModel {
     const engine = this.#live();
-    const numbers = engine.model(handed({ step }));
+    const numbers = engine.model(copyIn({ step }));
     const size = engine.states() ** 2;
     return {
       previous: numbers.slice(0, size),
@@ -137,7 +137,7 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `time-not-increasing`, `out-of-range`, `wrong-length`, `not-finite`.
    */
   measure(step: number, position: Vector): void {
-    const given = handed({ step, position });
+    const given = copyIn({ step, position });
     // the list of measurements, which from time to time is moved to where there is twice the room
     this.#asked(256 * ++this.#measured).measure(given);
   }
@@ -149,7 +149,7 @@ export class ConditionallyMarkovSequence {
    * @throws {@link WhitherError} `out-of-range`.
    */
   state(step: number): Gaussian {
-    const given = handed({ step });
+    const given = copyIn({ step });
     return gaussian(this.#asked().state(given));
   }
 
@@ -173,7 +173,7 @@ export class ConditionallyMarkovSequence {
    */
   sample(options: { readonly seed: number; readonly count: number }): Float64Array[] {
     checkOptions(options, ["seed", "count"]);
-    const given = handed(options ?? {});
+    const given = copyIn(options ?? {});
     const engine = this.#live();
     const length = (engine.steps() + 1) * engine.states();
     // what is more than may be drawn is refused for that reason
@@ -189,7 +189,7 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isReciprocal(tolerance?: number): boolean {
-    const given = handed({ tolerance });
+    const given = copyIn({ tolerance });
     return this.#asked().is_reciprocal(given);
   }
 
@@ -199,7 +199,7 @@ export class ConditionallyMarkovSequence {
    * @param tolerance - How far both sides of the theorem may differ, relative to the larger one. @defaultValue 1e-6
    */
   isMarkov(tolerance?: number): boolean {
-    const given = handed({ tolerance });
+    const given = copyIn({ tolerance });
     return this.#asked().is_markov(given);
   }
 
@@ -221,7 +221,7 @@ export class ConditionallyMarkovSequence {
   /** The engine, which has the memory for what follows, with so many bytes `more`. */
   #asked(more = 0): SequenceEngine {
     const engine = this.#live();
-    room(64 * engine.size() + more);
+    reserve(64 * engine.size() + more);
     return engine;
   }
 

@@ -1,12 +1,12 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { WhitherError } from "./error.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
-import { Engine, loaded, memory } from "./glue.js";
+import { Engine, loaded, memory } from "./loading/instance.js";
 import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
-import { bounds, handed, isShort, room, type Bounds } from "./room.js";
+import { bounds, copyIn, isScarce, reserve, type Bounds } from "./memory.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
-import { isList, MOST_ITEMS } from "./value.js";
+import { isList, MOST_ITEMS } from "./plain.js";
 
 /** What one destination with arrival times of its own may take, in bytes. */
 const ONE = 2 ** 23;
@@ -111,7 +111,7 @@ export class Predictor {
     loaded();
     // Only `adopt` has an engine to hand in: users never meet one.
     const given: unknown = scenario;
-    this.#engine = given instanceof Engine ? given : new Engine(handed(given));
+    this.#engine = given instanceof Engine ? given : new Engine(copyIn(given));
   }
 
   /**
@@ -142,7 +142,7 @@ export class Predictor {
       }
     }
     const list = !isList(position) && typeof position === "object" && count <= MOST_ITEMS;
-    const observation = handed({ time, position: list ? Array.from(position) : position, noise });
+    const observation = copyIn({ time, position: list ? Array.from(position) : position, noise });
     this.#moving().observe_in_full(observation);
   }
 
@@ -196,7 +196,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`.
    */
   arrival(id?: string): ArrivalTime | null {
-    const given = handed({ id });
+    const given = copyIn({ id });
     const numbers = this.#asked("answer").arrival(given);
     if (numbers === undefined) return null;
     const nodes = (numbers.length - 2) / 2;
@@ -255,7 +255,7 @@ export class Predictor {
    * @throws {@link WhitherError} `out-of-range`, `not-finite`.
    */
   forecast(time: number): Gaussian | null {
-    const given = handed({ time });
+    const given = copyIn({ time });
     const numbers = this.#asked("answer").forecast(given);
     return numbers ? gaussian(numbers) : null;
   }
@@ -269,7 +269,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, `out-of-range`, `not-finite`.
    */
   path(id: string, times: Vector): Float64Array {
-    const given = handed({ id, times });
+    const given = copyIn({ id, times });
     return this.#asked("answer", 1, 64 * (times?.length ?? 0)).path(given);
   }
 
@@ -280,7 +280,7 @@ export class Predictor {
    * accumulates evidence for each destination; and as the constructor does.
    */
   addDestination(destination: Destination): void {
-    const given = handed({ destination });
+    const given = copyIn({ destination });
     this.#asked("change", 1, ONE).add_destination(given);
   }
 
@@ -292,7 +292,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`, and as {@link addDestination} does.
    */
   updateDestination(id: string, destination: Omit<Destination, "id"> & { readonly id?: string }): void {
-    const given = handed({ id, destination });
+    const given = copyIn({ id, destination });
     this.#asked("change", 1, ONE).update_destination(given);
   }
 
@@ -302,7 +302,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`; `no-destinations` for the last one; `method-accumulates`.
    */
   removeDestination(id: string): void {
-    const given = handed({ id });
+    const given = copyIn({ id });
     this.#asked("change").remove_destination(given);
   }
 
@@ -313,7 +313,7 @@ export class Predictor {
    * @throws {@link WhitherError} as {@link addDestination} does.
    */
   setDestinations(destinations: readonly Destination[]): void {
-    const given = handed({ destinations });
+    const given = copyIn({ destinations });
     this.#asked("change", 1 + (destinations?.length ?? 0) / this.#live().len()).set_destinations(given);
   }
 
@@ -330,7 +330,7 @@ export class Predictor {
    * @throws {@link WhitherError} `unknown-id`.
    */
   chosen(id: string): void {
-    const given = handed({ id });
+    const given = copyIn({ id });
     this.#asked("change").chosen(given);
   }
 
@@ -359,7 +359,7 @@ export class Predictor {
    */
   static restore(snapshot: Snapshot): Predictor {
     loaded();
-    return adopt(Engine.restore(handed(snapshot, "snapshot", 2)));
+    return adopt(Engine.restore(copyIn(snapshot, "snapshot", 2)));
   }
 
   /**
@@ -384,9 +384,9 @@ export class Predictor {
   /** The engine, which has the memory for an observation: a movement takes some when it begins, and when its last time passes. */
   #moving(): Engine {
     const engine = this.#live();
-    if (this.#moves && !isShort()) return engine;
+    if (this.#moves && !isScarce()) return engine;
     if (!this.#moves) this.#movement = bounds(engine).movement;
-    room(this.#movement);
+    reserve(this.#movement);
     this.#moves = true;
     return engine;
   }
@@ -395,7 +395,7 @@ export class Predictor {
   #asked(what: keyof Bounds, times = 1, more = 0): Engine {
     const engine = this.#live();
     const bound = bounds(engine);
-    room(times * bound[what] + more);
+    reserve(times * bound[what] + more);
     // a change of destinations is a change of what a movement takes
     this.#movement = times * bound.movement;
     return engine;

@@ -23,5 +23,7 @@
  *
  * @packageDocumentation
  */
-export { init, type InitOptions } from "./embedded.js";
-export * from "./exports.js";
+export { init, type InitOptions } from "../core/loading/embedded.js";
+export * from "../core/exports.js";
+export * from "../core/sequence.js";
+export * from "../pointing/scenario.js";

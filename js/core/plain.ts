@@ -22,7 +22,7 @@ const DEEPEST = 24;
  * @param name - What every path in an error begins with; nothing for a scenario.
  * @param ask - Is told a bound of the bytes that the copy takes in WebAssembly, with what is made of it.
  */
-export function plain(value: unknown, name: string, ask: (bytes: number) => void): unknown {
+export function plainCopy(value: unknown, name: string, ask: (bytes: number) => void): unknown {
   const copier = new Copier(name);
   const copied = copier.copy(value);
   ask(copier.bytes);

@@ -4,7 +4,7 @@
  *
  * @module
  */
-import { loadWith, type InitOptions } from "./loading.js";
+import { loadWith, type InitOptions } from "./init.js";
 import compiledModule from "./whither.wasm";
 
 export type { InitOptions };

@@ -1,0 +1,8 @@
+/**
+ * `whither/pointing` where code may not compile WebAssembly at run time.
+ *
+ * @module
+ */
+export { init, type InitOptions } from "../core/loading/imported.js";
+export * from "../core/exports.js";
+export * from "../pointing/scenario.js";

@@ -1,7 +1,0 @@
-/**
- * `whither/pointing` where code may not compile WebAssembly at run time.
- *
- * @module
- */
-export { init, type InitOptions } from "./imported.js";
-export * from "./predicting.js";

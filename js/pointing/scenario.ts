@@ -1,0 +1,46 @@
+import { loaded, pointer_scenario } from "../core/loading/instance.js";
+import { copyIn } from "../core/memory.js";
+import type { Scenario } from "../core/scenario.js";
+
+/** Something on a screen that a pointer may be going to. */
+export interface PointerTarget {
+  /** Its name; no two are the same. */
+  readonly id: string;
+  /** Its centre, in px from the left. */
+  readonly x: number;
+  /** Its centre, in px from the top. */
+  readonly y: number;
+  /** In px. */
+  readonly width: number;
+  /** In px. */
+  readonly height: number;
+}
+
+/** What `pointerScenario` leaves to the application. */
+export interface PointerOptions {
+  /** The prior probability that the pointer is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
+  readonly none?: number | undefined;
+}
+
+/**
+ * The tuned scenario for a mouse, a pen or a finger on a screen: its targets and everything else filled in with constants that
+ * were measured on recorded movements.
+ *
+ * @param targets - What may be pointed at, by centre and size in px.
+ * @param options - What to do otherwise.
+ * @throws {@link WhitherError} with the path of the field; `not-initialised` before `init()`.
+ *
+ * @example
+ * ```ts
+ * const predictor = new Predictor(
+ *   pointerScenario([
+ *     { id: "radio", x: 100, y: 80, width: 90, height: 90 },
+ *     { id: "map", x: 600, y: 300, width: 90, height: 90 },
+ *   ]),
+ * );
+ * ```
+ */
+export function pointerScenario(targets: readonly PointerTarget[], options?: PointerOptions): Scenario {
+  loaded();
+  return pointer_scenario(copyIn({ targets, options }, "", 2)) as Scenario;
+}
