@@ -1,14 +1,14 @@
 // `npm run build`: dist/, which is what the package ships.
-import { copyFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { copyFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { buildWasm, modules } from "./build-wasm.mjs";
 import { incremental } from "./incremental.mjs";
-import { Failure, main, root, run } from "./run.mjs";
+import { main, root, run } from "./run.mjs";
 import { setUp } from "./setup.mjs";
 
 const dist = join(root, "dist");
 
-/** What is bundled together, and the WebAssembly that it loads. */
+/** What is bundled together, and the module of WebAssembly that it loads. */
 const bundles = [
   { entries: ["index", "slim", "workerd"], module: "whither" },
   { entries: ["pointing"], module: "pointing" },
@@ -16,9 +16,6 @@ const bundles = [
   { entries: ["study"], module: "study" },
   { entries: ["study-workerd"], module: "study" },
 ];
-
-/** Modules of their own, of which each entry takes what it needs: large ones, and the class of errors, the same for all. */
-const apart = ["error", ...modules.map(({ bytes }) => `generated/${bytes}`)];
 
 /** For resolvers that do not read `exports`: files beside package.json, where they look for `whither/slim` and the others. */
 const beside = ["slim", "pointing", "study"];
@@ -43,7 +40,8 @@ export async function build() {
     rmSync(dist, { recursive: true, force: true });
     await bundle();
     await declare();
-    for (const { name } of modules) {
+    for (const { name, bytes } of modules) {
+      copyFileSync(join(root, `js/generated/${bytes}.js`), join(dist, `${bytes}.js`));
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
       copyFileSync(join(root, "js/entries/module.d.ts"), join(dist, `${name}.wasm.d.ts`));
     }
@@ -54,47 +52,41 @@ export async function build() {
   });
 }
 
-/** One file for each entry, one that those of `whither` share (so that the loaded engine is the same), and those apart. */
+/** A file for each entry, `shared.js` for what those of `whither` share (one instance), and `error.js` (one class) for all. */
 async function bundle() {
   const esbuild = await import("esbuild");
-  // names stay: they are what a stack of calls is read by
-  const small = { minifySyntax: true, minifyWhitespace: true, legalComments: "none", format: "esm", ...syntax };
-  // An uncaught error prints the line that threw it, so lines are short; the maps lead from them to js/.
-  const readable = { lineLimit: 120, sourcemap: true };
+  const options = {
+    absWorkingDir: root,
+    outdir: "dist",
+    bundle: true,
+    format: "esm",
+    legalComments: "none",
+    // names stay: they are what a stack of calls is read by
+    minifySyntax: true,
+    minifyWhitespace: true,
+    // An uncaught error prints the line that threw it, so lines are short; the maps lead from them to js/.
+    lineLimit: 120,
+    sourcemap: true,
+    ...syntax,
+  };
+  await esbuild.build({ ...options, entryPoints: ["js/core/error.ts"] });
   for (const { entries, module } of bundles) {
+    const { bytes } = modules.find(({ name }) => name === module);
     await esbuild.build({
-      ...small,
-      ...readable,
-      absWorkingDir: root,
+      ...options,
       entryPoints: entries.map((name) => `js/entries/${name}.ts`),
-      outdir: "dist",
-      bundle: true,
       splitting: entries.length > 1,
       chunkNames: "shared",
       define: { WASM_FILE: JSON.stringify(`${module}.wasm`) },
-      plugins: [{ name: "own files", setup: (plugin) => keepApart(plugin, module) }],
+      alias: {
+        "#error": "./dist/error.js",
+        "#wasm": `./js/generated/${module}.js`,
+        "#bytes": `./dist/${bytes}.js`,
+        "#module": `./dist/${module}.wasm`,
+      },
+      external: ["./dist/*"],
     });
   }
-  for (const name of apart) {
-    const error = name === "error";
-    const source = error ? `js/core/${name}.ts` : `js/${name}.js`;
-    await esbuild.build({ ...small, ...(error ? readable : {}), absWorkingDir: root, entryPoints: [source], outdir: "dist" });
-  }
-  const found = readdirSync(dist).filter((name) => !name.endsWith(".map")).sort().join(" ");
-  const names = [...bundles.flatMap(({ entries }) => entries), "shared", ...apart.map((name) => basename(name))];
-  const expected = names.map((name) => `${name}.js`).sort().join(" ");
-  if (found !== expected) throw new Failure(`dist/ must hold ${expected}, it holds ${found}`);
-}
-
-/** Leaves out what stands apart; an entry with another WebAssembly than `whither.wasm` takes the code and the bytes of its own. */
-function keepApart({ onResolve }, module) {
-  const own = modules.find(({ name }) => name === module);
-  for (const name of apart) {
-    const of = name === "generated/bytes" ? `generated/${own.bytes}` : name;
-    onResolve({ filter: new RegExp(`/${name}\\.(js|ts)$`) }, () => ({ path: `./${basename(of)}.js`, external: true }));
-  }
-  onResolve({ filter: /\/generated\/whither\.js$/ }, () => ({ path: join(root, `js/generated/${own.name}.js`) }));
-  onResolve({ filter: /^\.\/\w+\.wasm$/ }, () => ({ path: `./${own.name}.wasm`, external: true }));
 }
 
 /** The declarations, without what is not exported. */

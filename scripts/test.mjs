@@ -28,7 +28,7 @@ const parts = {
   async wasm() {
     // the runner of these tests
     await compileTools();
-    // Without the feature: its classes import js/core/error.ts, which only the built package has. tests/js runs those.
+    // Without the feature: its classes import `#error`, which only the built package has. tests/js runs those.
     await tests("cargo", ["test", ...wasmTarget, "--test", "wasm"]);
   },
   async js() {

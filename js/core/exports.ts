@@ -3,7 +3,7 @@
  *
  * @module
  */
-export { WhitherError, type ErrorCode } from "./error.js";
+export { WhitherError, type ErrorCode } from "#error";
 export type { Gaussian } from "./gaussian.js";
 export { initSync } from "./loading/instance.js";
 export {

@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
+import { WhitherError } from "#error";
 
 /** Throws the error of a use after `free()`. */
 export function freed(what: string): never {

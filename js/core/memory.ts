@@ -4,7 +4,7 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
+import { WhitherError } from "#error";
 import { reserve_memory, memory, type Engine } from "./loading/instance.js";
 import { MOST_VALUES, plainCopy } from "./plain.js";
 

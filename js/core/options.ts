@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
+import { WhitherError } from "#error";
 import { isList } from "./plain.js";
 
 /**

@@ -6,7 +6,7 @@
  *
  * @module
  */
-import { WhitherError } from "./error.js";
+import { WhitherError } from "#error";
 
 /** The longest list that crosses: as many destinations as a predictor may have. */
 export const MOST_ITEMS = 1_000_000;

@@ -1,5 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import { WhitherError } from "./error.js";
+import { WhitherError } from "#error";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./loading/instance.js";
 import { dispose, freed } from "./lifetime.js";

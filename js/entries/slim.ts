@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "../core/error.js";
+import { WhitherError } from "#error";
 import { loadWith } from "../core/loading/init.js";
 import type { WasmSource } from "../core/loading/source.js";
 

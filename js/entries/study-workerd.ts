@@ -3,11 +3,11 @@
  *
  * @module
  */
+import compiledModule from "#module";
 import { fitWith } from "../study/fit.js";
-import compiledModule from "./study.wasm";
 import type { fit as Fit } from "./study.js";
 
-export { WhitherError } from "../core/error.js";
+export { WhitherError } from "#error";
 
 /** As in `whither/study`. */
 export const fit: typeof Fit = (tracks, scenario, options) => fitWith(() => compiledModule, tracks, scenario, options);

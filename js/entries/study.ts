@@ -4,12 +4,12 @@
  *
  * @module
  */
+import { base64 } from "#bytes";
 import { unpack } from "../core/loading/unpack.js";
 import type { Scenario } from "../core/scenario.js";
-import { base64 } from "../generated/study-bytes.js";
 import { fitWith, type FitOptions, type Fitted, type Track } from "../study/fit.js";
 
-export { WhitherError, type ErrorCode } from "../core/error.js";
+export { WhitherError, type ErrorCode } from "#error";
 export type { FitOptions, FitProgress, Fitted, FittedConstant, Track } from "../study/fit.js";
 
 /**

@@ -3,13 +3,13 @@
  *
  * @module
  */
-import { WhitherError } from "../core/error.js";
-import { instantiate, start } from "../core/loading/instantiate.js";
-import { compile, type WasmSource } from "../core/loading/source.js";
+import { WhitherError } from "#error";
+import { load } from "../core/loading/instance.js";
+import type { WasmSource } from "../core/loading/source.js";
 import { checkOptions } from "../core/options.js";
 import { plainCopy } from "../core/plain.js";
 import type { Scenario } from "../core/scenario.js";
-import { __wbg_set_wasm, fit, imports, reserve_memory } from "../generated/study.js";
+import { fit, reserve_memory } from "../generated/study.js";
 
 /**
  * One recorded movement, from its start to at least its entry into the target. In the plane a target is
@@ -81,14 +81,6 @@ export interface Fitted<S> {
   readonly tracks: number;
 }
 
-const bindings = { __wbg_set_wasm, imports };
-
-let loading: Promise<object> | undefined;
-
-async function load(source: () => WasmSource): Promise<object> {
-  return start(await instantiate(await compile(source), bindings), bindings);
-}
-
 /** `fit`, with the WebAssembly from `source`. */
 export async function fitWith<S extends Omit<Scenario, "destinations">>(
   source: () => WasmSource,
@@ -103,11 +95,7 @@ export async function fitWith<S extends Omit<Scenario, "destinations">>(
   }
   let bytes = 0;
   const given = plainCopy({ ...others, tracks, scenario }, "", (needed) => void (bytes = 2 * needed));
-  loading ??= load(source).catch((error: unknown) => {
-    loading = undefined;
-    throw error;
-  });
-  await loading;
+  await load(source);
   if (!reserve_memory(bytes)) {
     throw new WhitherError("too-large", "tracks", `may take ${Math.ceil(bytes / 2 ** 20)} MB of memory, more than there is`);
   }

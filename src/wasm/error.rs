@@ -3,9 +3,9 @@
 use crate::error::Error;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[wasm_bindgen(raw_module = "../core/error.ts")]
+#[wasm_bindgen(raw_module = "#error")]
 extern "C" {
-    /// The class of `js/core/error.ts`; the generated code that imports it lies in `js/generated`.
+    /// The class of `js/core/error.ts`, under the name that tsconfig.json gives it.
     #[derive(Debug)]
     pub type WhitherError;
 

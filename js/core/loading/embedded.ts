@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { base64 } from "../../generated/bytes.js";
+import { base64 } from "#bytes";
 import { loadWith, type InitOptions } from "./init.js";
 import { unpack } from "./unpack.js";
 

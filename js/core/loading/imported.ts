@@ -4,8 +4,8 @@
  *
  * @module
  */
+import compiledModule from "#module";
 import { loadWith, type InitOptions } from "./init.js";
-import compiledModule from "./whither.wasm";
 
 export type { InitOptions };
 

@@ -4,14 +4,13 @@
  *
  * @module
  */
-import { __wbg_set_wasm, imports } from "../../generated/whither.js";
-import { WhitherError } from "../error.js";
+import { __wbg_set_wasm, imports } from "#wasm";
+import { WhitherError } from "#error";
 import { checkOptions } from "../options.js";
 import { instantiate, instantiateNow, notInstantiated, start } from "./instantiate.js";
 import { compile, compileNow, type CompiledModule, type WasmSource } from "./source.js";
 
-// in `whither/pointing` that of another module, which has no SequenceEngine
-export * from "../../generated/whither.js";
+export * from "#wasm";
 
 const bindings = { __wbg_set_wasm, imports };
 

@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "../error.js";
+import { WhitherError } from "#error";
 import { reason, unavailable } from "./source.js";
 
 /** Of the generated code: the functions that WebAssembly calls, and the setter of what WebAssembly exports. */

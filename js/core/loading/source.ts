@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { WhitherError } from "../error.js";
+import { WhitherError } from "#error";
 
 /**
  * A compiled `WebAssembly.Module`. Named so plainly that the declarations need neither the DOM library nor Node's types.
