@@ -9,7 +9,7 @@ const STATES = 4;
 const FLIGHTS = 50;
 /** The deviation of a measured position, in metres. */
 const MEASURED = 10;
-/** Deviations at the ends (the paper's) and at a waypoint, in m/s and m. */
+/** Deviations at the origin and the destination (the paper's) and at a waypoint, in m/s and m. */
 const END_SPEED = Math.sqrt(10);
 const WAYPOINT_SPREAD = 300;
 const WAYPOINT_SPEED = 15;
@@ -27,10 +27,10 @@ export interface Place {
 export interface Settings {
   /** Spectral density of the process noise, `q`, in m²/s³. */
   readonly noise: number;
-  /** Deviations of the positions at both ends, in metres. */
+  /** Deviations of the positions at origin and destination, in metres. */
   readonly origin: number;
   readonly destination: number;
-  /** Of the positions at both ends, the same for both axes. */
+  /** Of the positions at origin and destination, the same for both axes. */
   readonly correlation: number;
   readonly waypoint: Place | null;
 }
@@ -86,7 +86,7 @@ export class Airliner {
     return { directed: predict(this.#directed), markov: predict(this.#markov) };
   }
 
-  /** What Theorem 3.2 says of the sequence that knows its destination. */
+  /** Theorem 3.2 for the sequence that knows its destination. */
   kind(): string {
     if (this.#directed.isMarkov()) return "Markov";
     return this.#directed.isReciprocal() ? "reciprocal, not Markov" : "not reciprocal";
@@ -127,8 +127,8 @@ function directedEnds({ origin, destination, correlation, waypoint }: Settings):
   const last = deviations.length - STATES;
   const between = (i: number, j: number) => {
     if (i === j) return 1;
-    const ends = Math.min(i, j) < 2 && Math.max(i, j) - Math.min(i, j) === last;
-    return ends ? correlation : 0;
+    const corners = Math.min(i, j) < 2 && Math.max(i, j) - Math.min(i, j) === last;
+    return corners ? correlation : 0;
   };
   const seconds = STEPS * STEP_SECONDS;
   const velocity = [(DESTINATION[0] - ORIGIN[0]) / seconds, (DESTINATION[1] - ORIGIN[1]) / seconds];
@@ -139,7 +139,7 @@ function directedEnds({ origin, destination, correlation, waypoint }: Settings):
   };
 }
 
-/** The joint density that nearly constant velocity gives both ends: `x_N = F x_0 + e`, `e ~ N(0, Q)` over all steps. */
+/** The joint density that nearly constant velocity gives origin and destination: `x_N = F x_0 + e`, `e ~ N(0, Q)` over all steps. */
 function markovEnds({ noise, origin }: Settings): Pins {
   const h = STEPS * STEP_SECONDS;
   const [position, speed] = [origin ** 2, END_SPEED ** 2];
@@ -160,7 +160,7 @@ function markovEnds({ noise, origin }: Settings): Pins {
   };
 }
 
-/** Measurement errors: the steps of a sequence that stands still. */
+/** Measurement errors: the steps of a sequence at rest. */
 function noise(seed: number): Flight {
   const still = new ConditionallyMarkovSequence({
     motion: { type: "brownian", dimensions: 2, noise: 1 },

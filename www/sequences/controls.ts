@@ -1,5 +1,5 @@
 /** The sliders of the model; spreads and noise are set on logarithmic scales. */
-import { showValue } from "../view/slider.ts";
+import { showValue } from "../shared/slider.ts";
 import type { Settings } from "./airliner.ts";
 import { length } from "./length.ts";
 

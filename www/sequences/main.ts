@@ -1,8 +1,8 @@
 /** Puts the page of the sequences together: settings in, flights and predictions out. */
 import { init } from "whither";
-import { onResolution } from "../view/resolution.ts";
-import { theme } from "../view/theme.ts";
-import { Words } from "../view/words.ts";
+import { onResolution } from "../shared/resolution.ts";
+import { theme } from "../shared/theme.ts";
+import { Status } from "../shared/status.ts";
 import { Airliner, at, PAPER, STEPS, type Prediction, type Settings } from "./airliner.ts";
 import { Controls } from "./controls.ts";
 import { length } from "./length.ts";
@@ -19,7 +19,7 @@ function part<T extends HTMLElement = HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }
 
-const words = new Words(part("status"), part("announcement"));
+const status = new Status(part("status"), part("announcement"));
 
 async function start(): Promise<void> {
   const map = new FlightMap(part<HTMLCanvasElement>("canvas"));
@@ -58,8 +58,8 @@ async function start(): Promise<void> {
     part("markov-error").textContent = length(error(markov, end.x, end.y));
     part("kind").textContent = airliner.kind();
     part("remove").hidden = settings.waypoint === null;
-    words.show(known(measured, directed, markov));
-    if (!playing) words.announce(known(measured, directed, markov));
+    status.show(known(measured, directed, markov));
+    if (!playing) status.announce(known(measured, directed, markov));
   };
 
   const set = (change: Partial<Settings>) => {
@@ -92,7 +92,7 @@ async function start(): Promise<void> {
     if (playing) return stop();
     if (measured >= STEPS - 1) measured = 0;
     play.textContent = "Pause";
-    words.announce("Playing.");
+    status.announce("Playing.");
     playing = window.setInterval(() => {
       measured += 1;
       if (measured >= STEPS - 1) stop();
@@ -116,7 +116,7 @@ async function start(): Promise<void> {
   refresh(false);
 }
 
-/** What the numbers say, in a sentence. */
+/** The numbers in a sentence. */
 function known(measured: number, directed: Prediction, markov: Prediction): string {
   const after = measured === 1 ? "After 1 measurement" : `After ${measured} measurements`;
   return `${after} the landing place is known to ${length(deviation(directed))}; without a destination to ${length(deviation(markov))}.`;
@@ -132,6 +132,6 @@ function error({ end: { mean } }: Prediction, x: number, y: number): number {
 }
 
 start().catch((error: unknown) => {
-  words.say(`The sequences could not start: ${error instanceof Error ? error.message : String(error)}`, true);
+  status.write(`The sequences could not start: ${error instanceof Error ? error.message : String(error)}`, true);
   document.documentElement.dataset["failed"] = "true";
 });

@@ -1,6 +1,6 @@
 /** The map: flights, the one that is followed, and its prediction, on a canvas. */
-import { colours } from "../view/colours.ts";
-import { ellipse } from "../view/ellipse.ts";
+import { colours } from "../shared/colours.ts";
+import { ellipse } from "../shared/ellipse.ts";
 import type { Airliner, Flight, Place, Prediction } from "./airliner.ts";
 
 /** What is shown, in metres. */

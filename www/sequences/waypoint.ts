@@ -18,7 +18,7 @@ export class Waypoint {
   readonly #map: FlightMap;
   #place: Place | null = PAPER.waypoint;
 
-  /** `moved` is told of every new place. */
+  /** `moved` is called with every new place. */
   constructor(button: HTMLButtonElement, map: FlightMap, moved: (place: Place) => void) {
     this.#button = button;
     this.#map = map;

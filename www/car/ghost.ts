@@ -1,0 +1,140 @@
+/** While nobody moves, a ghost shows what the page is for: an arrow with a trail that moves slowly enough to be followed. */
+import { reach, seeded, type Hand } from "./movement/hand.ts";
+import type { Box, Point } from "./movement/intent.ts";
+import type { Sample } from "./movement/segmenter.ts";
+import { trail } from "./view/trail.ts";
+
+/** Seconds without input before it appears, and before it comes back. */
+const FIRST = 1;
+const AGAIN = 15;
+
+/** Seconds between arrival and press, and between press and the next movement. */
+const DWELL = 0.35;
+const PAUSE = 1;
+
+/** Its movements take this many times as long as an unhurried hand's. */
+const PACE = 1.6;
+
+/** It is sampled like a common mouse, however seldom the page is drawn (seconds). */
+const SAMPLING = 0.01;
+
+/** Seconds and px that the trail is long and wide. */
+const TRAIL = 0.45;
+const TRAIL_WIDTH = 7;
+
+/** The arrow points to the right of the icon's drawing, so that it does not hide it (shares of a box). */
+const ASIDE = { from: 0.2, to: 0.24 };
+
+export interface Stage {
+  /** The icons' boxes, in px from the screen's corner. */
+  targets(): readonly Box[];
+  /** Whether the screen is visible. */
+  visible(): boolean;
+  enter(): void;
+  move(sample: Sample): void;
+  press(index: number, sample: Sample): void;
+  gone(): void;
+}
+
+export interface GhostParts {
+  readonly root: HTMLElement;
+  readonly arrow: SVGElement;
+  readonly trail: SVGElement;
+}
+
+/** Plays whenever nothing was heard of a visitor for a while, until the returned function is called. */
+export function haunt(parts: GhostParts, stage: Stage): () => void {
+  const controller = new AbortController();
+  const random = seeded(21);
+  let frame = 0;
+  let timer = 0;
+  let due = performance.now() + FIRST * 1000;
+  let places: Sample[] = [];
+
+  const wait = () => {
+    timer = window.setTimeout(() => {
+      if (performance.now() < due || !stage.visible()) wait();
+      else appear();
+    }, Math.max(100, due - performance.now()));
+  };
+
+  const appear = () => {
+    parts.root.hidden = false;
+    stage.enter();
+    play(performance.now());
+  };
+
+  const vanish = () => {
+    cancelAnimationFrame(frame);
+    if (parts.root.hidden) return;
+    parts.root.hidden = true;
+    places = [];
+    stage.gone();
+    wait();
+  };
+
+  const show = (now: number) => {
+    const head = places.at(-1);
+    if (!head) return;
+    places = places.filter((place) => now - place.time <= TRAIL);
+    if (places.length === 0) places = [head];
+    parts.arrow.style.transform = `translate(${head.x}px, ${head.y}px)`;
+    parts.trail.setAttribute("d", trail(places, TRAIL_WIDTH));
+  };
+
+  const play = (set: number) => {
+    const targets = stage.targets();
+    const from = places.at(-1) ?? { x: (targets[0]?.x ?? 0) - 30, y: targets.at(-1)?.y ?? 0 };
+    const far = targets.map((_, index) => index).filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
+    const index = far[Math.floor(random() * far.length)] ?? 0;
+    const target = targets[index];
+    if (!target || !stage.visible()) {
+      vanish();
+      return;
+    }
+    const aside = ASIDE.from + (ASIDE.to - ASIDE.from) * random();
+    const aim = { x: target.x + aside * target.width, y: target.y + 0.1 * (random() - 0.5) * target.height };
+    follow(reach(from, aim, Math.min(target.width, target.height), random, PACE), index, set);
+  };
+
+  const follow = (hand: Hand, index: number, set: number) => {
+    let sampled = 0;
+    let pressed = false;
+    const step = (now: number) => {
+      const elapsed = (now - set) / 1000;
+      for (; sampled <= Math.min(elapsed, hand.duration); sampled += SAMPLING) {
+        const sample = { time: set / 1000 + sampled, ...hand.at(sampled) };
+        places.push(sample);
+        stage.move(sample);
+      }
+      show(now / 1000);
+      if (!pressed && elapsed > hand.duration + DWELL) {
+        pressed = true;
+        stage.press(index, { time: now / 1000, ...hand.at(hand.duration) });
+      } else if (elapsed > hand.duration + DWELL + PAUSE) {
+        play(now);
+        return;
+      }
+      frame = requestAnimationFrame(step);
+    };
+    frame = requestAnimationFrame(step);
+  };
+
+  const input = () => {
+    due = performance.now() + AGAIN * 1000;
+    vanish();
+  };
+  for (const type of ["pointermove", "pointerdown", "keydown", "wheel", "touchstart"]) {
+    addEventListener(type, input, { signal: controller.signal, passive: true, capture: true });
+  }
+  wait();
+  return () => {
+    controller.abort();
+    vanish();
+    clearTimeout(timer);
+  };
+}
+
+function away(from: Point, target: Point | undefined): number {
+  return target ? Math.hypot(target.x - from.x, target.y - from.y) : 0;
+}

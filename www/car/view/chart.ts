@@ -1,0 +1,189 @@
+/** The last movement: who was how probable when, the press, and how long before it the answer was right. */
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import type { Moment } from "../movement/history.ts";
+import type { Outcome } from "../movement/outcome.ts";
+import { bandsOf, OWN, stack, type Band } from "./bands.ts";
+import { colours } from "../../shared/colours.ts";
+import { milliseconds } from "./format.ts";
+
+/** A movement shorter than this does not fill the width (seconds). */
+const SHORTEST = 0.6;
+
+const BANDS = ["band-1", "band-2", "band-3", "band-4", "band-5"] as const;
+const NAMES = [...BANDS, "text", "muted", "ground", "dim", "on-light", "on-band"] as const;
+const NO_COLOURS = Object.fromEntries(NAMES.map((name) => [name, ""])) as Record<(typeof NAMES)[number], string>;
+
+export class Chart {
+  readonly #root: HTMLElement;
+  readonly #labels: readonly string[];
+  #plot: uPlot;
+  #bands: readonly Band[] = [];
+  #outcome: Outcome | null = null;
+  #start = 0;
+  #rem = 0;
+  #colours = NO_COLOURS;
+  #data: uPlot.AlignedData = [[], ...Array.from({ length: OWN + 1 }, () => [])];
+
+  constructor(root: HTMLElement, labels: readonly string[]) {
+    this.#root = root;
+    this.#labels = labels;
+    this.#plot = this.#make();
+    new ResizeObserver(() => {
+      if (this.#rem === remOf()) this.#plot.setSize(this.#size());
+      else this.restyle();
+    }).observe(root);
+  }
+
+  /** After a change of theme or of the text's size: colours and sizes are read again. */
+  restyle(): void {
+    this.#plot.destroy();
+    this.#plot = this.#make();
+    this.#fitTime();
+  }
+
+  /** A movement under way, or with its outcome a finished one; an example is fainter. */
+  draw(moments: readonly Moment[], outcome: Outcome | null, example = false): void {
+    this.#root.toggleAttribute("data-example", example);
+    this.#start = moments[0]?.time ?? 0;
+    this.#outcome = outcome;
+    this.#bands = bandsOf(moments, this.#labels, outcome?.chosen ?? moments.at(-1)?.leader ?? 0);
+    const times = moments.map((moment) => moment.time - this.#start);
+    const columns = this.#bands.map((band) => [...band.values]);
+    if (outcome) {
+      times.push(outcome.pressed - this.#start);
+      for (const column of columns) column.push(column.at(-1) ?? 0);
+    }
+    this.#data = [times, ...stack(columns)];
+    this.#plot.setData(this.#data, false);
+    this.#fitTime();
+  }
+
+  #fitTime(): void {
+    this.#plot.setScale("x", { min: 0, max: Math.max(SHORTEST, this.#data[0].at(-1) ?? 0) });
+  }
+
+  #size(): { width: number; height: number } {
+    return { width: this.#root.clientWidth, height: this.#root.clientHeight };
+  }
+
+  #make(): uPlot {
+    const rem = remOf();
+    this.#rem = rem;
+    this.#colours = colours(this.#root, NAMES);
+    const axis: uPlot.Axis = {
+      stroke: this.#colours.muted,
+      font: `${0.75 * rem}px ${getComputedStyle(this.#root).fontFamily}`,
+      grid: { show: false },
+      ticks: { show: false },
+      gap: 0.35 * rem,
+    };
+    return new uPlot(
+      {
+        ...this.#size(),
+        padding: [1.75 * rem, rem, 0, 0],
+        legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false }, y: { range: [0, 1] } },
+        axes: [
+          { ...axis, size: 1.6 * rem, space: 5 * rem, values: (_, splits) => splits.map((split) => `${Number(split.toFixed(2))} s`) },
+          { ...axis, size: 3 * rem, splits: () => [0, 0.5, 1], values: (_, splits) => splits.map((split) => `${split * 100}%`) },
+        ],
+        series: [{}, ...this.#data.slice(1).map((_, place) => area(this.#colours[BANDS[place] ?? "band-5"], this.#colours.ground))],
+        bands: Array.from({ length: OWN }, (_, place) => ({ series: [place + 2, place + 1] as [number, number] })),
+        hooks: { draw: [(plot) => this.#annotate(plot)] },
+      },
+      this.#data,
+      this.#root,
+    );
+  }
+
+  #annotate(plot: uPlot): void {
+    const { ctx: context } = plot;
+    const ratio = devicePixelRatio;
+    const size = 0.78 * this.#rem * ratio;
+    context.save();
+    context.font = `500 ${size}px ${getComputedStyle(this.#root).fontFamily}`;
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    const outcome = this.#outcome;
+    if (outcome) this.#showLead(plot, context, outcome, size);
+    this.#nameBands(plot, context, size);
+    context.restore();
+  }
+
+  /** The lead is lit, what came before it is dimmed; a dimension line above it gives its length. */
+  #showLead(plot: uPlot, context: CanvasRenderingContext2D, outcome: Outcome, size: number): void {
+    const { left, top, height } = plot.bbox;
+    const pressed = plot.valToPos(outcome.pressed - this.#start, "x", true);
+    const since = plot.valToPos(outcome.pressed - outcome.lead - this.#start, "x", true);
+    context.fillStyle = this.#colours.dim;
+    context.fillRect(left, top, since - left, height);
+    context.strokeStyle = this.#colours.text;
+    context.lineWidth = 2 * devicePixelRatio;
+    line(context, pressed, top - 1.6 * size, pressed, top + height);
+    if (outcome.lead === 0) return;
+    const text = milliseconds(outcome.lead);
+    const half = context.measureText(text).width / 2 + size / 2;
+    const middle = (since + pressed) / 2;
+    const level = top - size;
+    const fits = pressed - since > 2 * half + size;
+    context.lineWidth = devicePixelRatio;
+    line(context, since, top - 1.6 * size, since, top + height);
+    line(context, since, level, fits ? middle - half : pressed, level);
+    if (fits) line(context, middle + half, level, pressed, level);
+    context.fillStyle = this.#colours.text;
+    context.fillText(text, fits ? middle : since - half, level);
+  }
+
+  /** A name is placed at the centroid of its area, if there is room. */
+  #nameBands(plot: uPlot, context: CanvasRenderingContext2D, size: number): void {
+    const times = this.#data[0] as number[];
+    const { left } = plot.bbox;
+    const named: { x: number; y: number; half: number }[] = [];
+    this.#bands.forEach((band, place) => {
+      const at = heaviest(times, band.values);
+      const upper = (this.#data[place + 1] as number[])[at] ?? 0;
+      const lower = place === 0 ? 0 : ((this.#data[place] as number[])[at] ?? 0);
+      const room = plot.valToPos(lower, "y", true) - plot.valToPos(upper, "y", true);
+      if (room < 1.5 * size) return;
+      const half = context.measureText(band.label).width / 2 + size / 2;
+      const right = plot.valToPos(times.at(-1) ?? 0, "x", true);
+      if (right - left < 2 * half) return;
+      const x = Math.min(right - half, Math.max(left + half, plot.valToPos(times[at] ?? 0, "x", true)));
+      const y = plot.valToPos((upper + lower) / 2, "y", true);
+      if (named.some((other) => Math.abs(other.x - x) < other.half + half && Math.abs(other.y - y) < 1.2 * size)) return;
+      named.push({ x, y, half });
+      context.fillStyle = place === 0 ? this.#colours["on-light"] : this.#colours["on-band"];
+      context.fillText(band.label, x, y);
+    });
+  }
+}
+
+/** What a rem is now, in px. */
+function remOf(): number {
+  return Number.parseFloat(getComputedStyle(document.documentElement).fontSize);
+}
+
+/** The sample nearest to the middle of an area's weight. */
+function heaviest(times: readonly number[], values: readonly number[]): number {
+  let sum = 0;
+  let moment = 0;
+  values.forEach((value, index) => {
+    sum += value ** 2;
+    moment += value ** 2 * (times[index] ?? 0);
+  });
+  const middle = moment / sum;
+  return values.reduce((best, _, index) => (Math.abs((times[index] ?? 0) - middle) < Math.abs((times[best] ?? 0) - middle) ? index : best), 0);
+}
+
+function area(fill: string, edge: string): uPlot.Series {
+  return { fill, stroke: edge, width: 1, points: { show: false } };
+}
+
+function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: number, y2: number): void {
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x2, y2);
+  context.stroke();
+}

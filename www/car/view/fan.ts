@@ -1,0 +1,73 @@
+/** What is expected, drawn in light: a path to each of the leading three, and the forecast's one-deviation ellipse once it is informative. */
+import type { Outlook } from "../belief/predictions.ts";
+import { ellipse, isInformative } from "../../shared/ellipse.ts";
+
+export class Fan {
+  readonly #canvas: HTMLCanvasElement;
+  #colour = "";
+  #scale = 1;
+  #drawn = false;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
+    this.fit();
+  }
+
+  /** After a change of size or theme. */
+  fit(): void {
+    const { clientWidth, clientHeight } = this.#canvas;
+    this.#scale = devicePixelRatio;
+    this.#canvas.width = Math.round(clientWidth * this.#scale);
+    this.#canvas.height = Math.round(clientHeight * this.#scale);
+    this.#colour = getComputedStyle(this.#canvas).color;
+    this.#drawn = false;
+  }
+
+  clear(): void {
+    if (!this.#drawn) return;
+    const context = this.#canvas.getContext("2d");
+    context?.setTransform(1, 0, 0, 1, 0, 0);
+    context?.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
+    this.#drawn = false;
+  }
+
+  draw(outlook: Outlook, probabilities: ArrayLike<number>): void {
+    if (devicePixelRatio !== this.#scale) this.fit();
+    this.clear();
+    const context = this.#canvas.getContext("2d");
+    if (!context) return;
+    this.#drawn = true;
+    context.setTransform(this.#scale, 0, 0, this.#scale, 0, 0);
+    context.strokeStyle = this.#colour;
+    context.fillStyle = this.#colour;
+    context.lineCap = "round";
+    context.lineWidth = 1.5;
+    for (const { index, points } of outlook.paths) {
+      context.globalAlpha = probabilities[index] ?? 0;
+      trace(context, points);
+      context.stroke();
+    }
+    const shape = ellipse(outlook.covariance, outlook.states);
+    if (!isInformative(shape, this.#canvas.clientWidth, this.#canvas.clientHeight)) return;
+    context.beginPath();
+    context.ellipse(outlook.mean[0] ?? 0, outlook.mean[1] ?? 0, shape.long, shape.short, shape.angle, 0, 2 * Math.PI);
+    context.globalAlpha = 0.07;
+    context.fill();
+    context.globalAlpha = 0.35;
+    context.lineWidth = 1;
+    context.stroke();
+  }
+}
+
+/** A smooth line through x, y, x, y, ...: quadratic pieces between the middles. */
+function trace(context: CanvasRenderingContext2D, points: ArrayLike<number>): void {
+  const x = (place: number) => points[2 * place] ?? 0;
+  const y = (place: number) => points[2 * place + 1] ?? 0;
+  const last = points.length / 2 - 1;
+  context.beginPath();
+  context.moveTo(x(0), y(0));
+  for (let place = 1; place < last; place += 1) {
+    context.quadraticCurveTo(x(place), y(place), (x(place) + x(place + 1)) / 2, (y(place) + y(place + 1)) / 2);
+  }
+  context.lineTo(x(last), y(last));
+}

@@ -1,9 +1,0 @@
-/** Where an arrow key leads. */
-
-/** Left and right walk in reading order, up and down by a row, Home and End to the ends. */
-export function destinationOf(key: string, here: number, columns: number, count: number): number | null {
-  const steps: Record<string, number> = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: columns, ArrowUp: -columns };
-  const ends: Record<string, number> = { Home: 0, End: count - 1 };
-  const next = ends[key] ?? here + (steps[key] ?? Number.NaN);
-  return next >= 0 && next < count ? next : null;
-}
