@@ -21,7 +21,7 @@ struct Movement {
 impl Movement {
     fn new(case: &Json, positions: &[Vec<f64>], interval: f64) -> Self {
         let scenario: Scenario = serde_json::from_value(case["scenario"].clone()).expect("the scenarios are good");
-        let predictor = Predictor::new(&scenario).expect("the scenarios are good");
+        let predictor = Predictor::new(&scenario);
         let dimensions = predictor.dimensions();
         let positions = positions.iter().map(|position| position[..dimensions].to_vec()).collect();
         let length = case["length"].as_u64().unwrap_or(u64::MAX);

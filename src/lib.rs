@@ -27,7 +27,7 @@
 //!         { "id": "Portsmouth", "center": [14000, 8000], "size": 400 }
 //!     ]
 //! }"#)?;
-//! let mut vessel = Predictor::new(&scenario)?;
+//! let mut vessel = Predictor::new(&scenario);
 //! for minute in 0..10 {
 //!     let t = 60.0 * f64::from(minute);
 //!     vessel.observe(t, &[6.0 * t, 0.1 * t])?;

@@ -33,7 +33,7 @@ pub struct PointerTarget {
 /// use whither::{Predictor, pointer::{PointerOptions, PointerTarget, pointer_scenario}};
 /// let target = |id: &str, x| PointerTarget { id: id.to_owned(), x, y: 0.0, width: 90.0, height: 90.0 };
 /// let targets = [target("radio", 0.0), target("map", 500.0)];
-/// let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.5 }).unwrap()).unwrap();
+/// let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.5 }).unwrap());
 /// assert_eq!((predictor.none(), predictor.probabilities()), (0.5, &[0.25, 0.25][..]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ const SPEED_NOISE: [f64; 2] = [3.0, 1.0];
 /// use whither::{Predictor, pointer::{PointerOptions, PointerTarget, pointer_scenario}};
 /// let target = |id: &str, x| PointerTarget { id: id.to_owned(), x, y: 300.0, width: 96.0, height: 96.0 };
 /// let scenario = pointer_scenario(&[target("radio", 100.0), target("map", 700.0)], PointerOptions::default()).unwrap();
-/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// let mut predictor = Predictor::new(&scenario);
 /// predictor.observe(0.0, &[400.0, 300.0]).unwrap();
 /// predictor.observe(0.016, &[409.0, 300.0]).unwrap();
 /// assert_eq!(predictor.best().unwrap().id, "map");

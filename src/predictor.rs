@@ -27,7 +27,7 @@ pub(crate) use track::Track;
 ///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
 ///     "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [9], "size": 1, "prior": 3 }]
 /// }"#).unwrap();
-/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// let mut predictor = Predictor::new(&scenario);
 /// assert_eq!(predictor.best(), None);
 /// predictor.observe(0.0, &[4.5]).unwrap(); // where it began says nothing: the priors stand
 /// let best = predictor.best().unwrap();
@@ -58,7 +58,7 @@ pub struct Best {
 ///     "arrival": { "type": "discrete", "times": [4], "weights": [1] },
 ///     "destinations": [{ "id": "there", "center": [9], "size": 1 }]
 /// }"#).unwrap();
-/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// let mut predictor = Predictor::new(&scenario);
 /// predictor.observe(10.0, &[0.0]).unwrap();
 /// predictor.observe(11.0, &[2.0]).unwrap();
 /// assert!((predictor.remaining().unwrap().mean - 3.0).abs() < 1e-12); // 4 seconds from the first observation
@@ -86,7 +86,7 @@ pub struct Remaining {
 ///         { "id": "right", "center": [600, 200], "size": [80, 80] }
 ///     ]
 /// }"#).unwrap();
-/// let mut predictor = Predictor::new(&scenario).unwrap();
+/// let mut predictor = Predictor::new(&scenario);
 /// for k in 0..10 {
 ///     let t = 0.016 * f64::from(k);
 ///     predictor.observe(t, &[300.0 + 900.0 * t, 200.0]).unwrap();
@@ -106,12 +106,10 @@ pub struct Predictor {
 }
 
 impl Predictor {
-    /// A predictor that has seen nothing yet.
-    ///
-    /// # Errors
-    /// None for a scenario that was read; the signature leaves room for limits of the machine.
-    pub fn new(scenario: &Scenario) -> Result<Self> {
-        Ok(Self::with_track(Arc::new(scenario.clone()), Arc::clone(&scenario.destinations), None))
+    /// A predictor before its first observation.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        Self::with_track(Arc::new(scenario.clone()), Arc::clone(&scenario.destinations), None)
     }
 
     pub(crate) fn with_track(scenario: Arc<Scenario>, destinations: Arc<Destinations>, track: Option<Track>) -> Self {

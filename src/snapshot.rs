@@ -20,7 +20,7 @@ impl Predictor {
     /// #   "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 0.1 },
     /// #   "arrival": { "type": "uniform", "from": 1, "to": 2 },
     /// #   "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [5], "size": 1 }] }"#).unwrap();
-    /// let mut predictor = whither::Predictor::new(&scenario).unwrap();
+    /// let mut predictor = whither::Predictor::new(&scenario);
     /// predictor.observe(0.0, &[1.0]).unwrap();
     /// let json = serde_json::to_string(&predictor.snapshot()).unwrap();
     /// let mut restored = whither::Predictor::restore(&serde_json::from_str(&json).unwrap()).unwrap();

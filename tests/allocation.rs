@@ -55,12 +55,12 @@ fn pointing(count: u32, sizes: Sizes) -> Predictor {
         height: 60.0,
     });
     let options = PointerOptions { none: 0.05 };
-    Predictor::new(&pointer_scenario(&targets.collect::<Vec<_>>(), options).unwrap()).unwrap()
+    Predictor::new(&pointer_scenario(&targets.collect::<Vec<_>>(), options).unwrap())
 }
 
 fn read(scenario: &Json) -> Predictor {
     let scenario: Scenario = serde_json::from_value(scenario.clone()).unwrap();
-    Predictor::new(&scenario).unwrap()
+    Predictor::new(&scenario)
 }
 
 /// A movement of so many observations over the screen, and its probabilities after each.

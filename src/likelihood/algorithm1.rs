@@ -11,7 +11,7 @@
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
 //!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 //! }"#).unwrap();
-//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! let mut predictor = Predictor::new(&scenario);
 //! predictor.observe(0.0, &[0.0]).unwrap();
 //! predictor.observe(1.0, &[1.0]).unwrap();
 //! // (10): x_2 ~ N(0, 2) becomes N(4/3, 4/3); (11): y_2 = 1 is of N(4/3, 7/3)

@@ -14,7 +14,7 @@
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
 //!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 //! }"#).unwrap();
-//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! let mut predictor = Predictor::new(&scenario);
 //! predictor.observe(0.0, &[0.0]).unwrap();
 //! predictor.observe(1.0, &[1.0]).unwrap();
 //! // (12): x_1 ~ N(0, 1) becomes N(2/3, 5/6); (13): x_2 = (4 x_1 + 4) / 5 + N(0, 4/5), so y_2 = 1 is of N(4/3, 7/3)

@@ -12,7 +12,7 @@
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
 //!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 //! }"#).unwrap();
-//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! let mut predictor = Predictor::new(&scenario);
 //! predictor.observe(0.0, &[0.0]).unwrap();
 //! predictor.observe(1.0, &[1.0]).unwrap();
 //! // the bridge goes half of the way, with the variance 1/2: x_2 ~ N(2, 1/4 + 3/4 + 1/2), so y_2 = 1 is of N(2, 5/2)

@@ -222,7 +222,7 @@ impl Search<'_> {
                 loss += score.loss;
                 samples += score.samples;
             } else {
-                let mut predictor = Predictor::new(&scenario)?;
+                let mut predictor = Predictor::new(&scenario);
                 for sample in &track.samples[..approach] {
                     sample.observe(&mut predictor)?;
                 }

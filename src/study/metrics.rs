@@ -156,7 +156,7 @@ impl Score {
     /// # Errors
     /// Those of the predictor.
     pub fn of_scenario(track: &Track, approach: usize, scenario: &Scenario) -> Result<Self> {
-        Self::of_predictor(track, approach, &mut Predictor::new(scenario)?)
+        Self::of_predictor(track, approach, &mut Predictor::new(scenario))
     }
 
     /// The same for a predictor that stands at the beginning of a movement, among the track's targets: one that has learnt from

@@ -79,7 +79,7 @@ impl Sample {
     ///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
     ///     "destinations": [{ "id": "a", "center": [0, 0], "size": 1 }, { "id": "b", "center": [9, 0], "size": 1 }]
     /// }"#).unwrap();
-    /// let [mut told, mut untold] = [(); 2].map(|()| Predictor::new(&scenario).unwrap());
+    /// let [mut told, mut untold] = [(); 2].map(|()| Predictor::new(&scenario));
     /// for predictor in [&mut told, &mut untold] {
     ///     Sample { time: 0.0, position: vec![4.0, 0.0], missing: vec![] }.observe(predictor).unwrap();
     /// }

@@ -20,7 +20,7 @@ impl Engine {
     #[wasm_bindgen(constructor)]
     pub fn new(value: JsValue) -> Result<Engine> {
         let scenario = Scenario::from_value(&data::read(&value)?)?;
-        Ok(Self { predictor: Predictor::new(&scenario)? })
+        Ok(Self { predictor: Predictor::new(&scenario) })
     }
 
     /// From a snapshot.

@@ -240,7 +240,7 @@ fn run(seed: u64) -> bool {
     draw.unit();
     let scenario = draw.scenario();
     let Ok(read) = Scenario::from_value(&scenario) else { return false };
-    let mut predictor = Predictor::new(&read).unwrap();
+    let mut predictor = Predictor::new(&read);
     let again = Scenario::from_value(&read.to_value()).expect("what was written is read");
     assert_eq!(again.to_value(), read.to_value(), "a scenario written and read again");
     let mut time = draw.within(-5.0, 5.0);

@@ -145,7 +145,7 @@ fn a_users_habits_are_worth_more_than_a_better_model_of_the_hand() {
     entries.push(("learning".to_owned(), value(&json!({ "strength": 10, "forgetting": 0.01, "afterLast": 3 }))));
     let learning = Scenario::from_value(&whither::Value::Map(entries)).unwrap();
     let mut random = Random::new(11);
-    let mut learner = Predictor::new(&learning).unwrap();
+    let mut learner = Predictor::new(&learning);
     let (mut with, mut without) = (0.0, 0.0);
     let mut last = 0usize;
     for movement in 0..240 {

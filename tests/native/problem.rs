@@ -218,7 +218,7 @@ impl Problem {
         if method == "singleFilterApproximate" {
             scenario["none"] = json!(0);
         }
-        Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap()).unwrap()
+        Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap())
     }
 
     pub fn followed(&self, method: &str) -> Predictor {

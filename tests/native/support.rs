@@ -44,7 +44,7 @@ pub fn value(json: &Json) -> Value {
 
 /// A predictor from JSON.
 pub fn predictor(scenario: &Json) -> Predictor {
-    Predictor::new(&Scenario::from_value(&value(scenario)).unwrap()).unwrap()
+    Predictor::new(&Scenario::from_value(&value(scenario)).unwrap())
 }
 
 /// A list of numbers; null is minus infinity, as the golden cases write it.

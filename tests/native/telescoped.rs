@@ -260,7 +260,7 @@ fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
         world(&mut random, 1, json!(20), json!(90)),
     ] {
         compare(&json, &mut random, &mut worst);
-        let mut predictor = Predictor::new(&Scenario::from_value(&value(&json)).unwrap()).unwrap();
+        let mut predictor = Predictor::new(&Scenario::from_value(&value(&json)).unwrap());
         let zeros = |predictor: &mut Predictor| predictor.probabilities().iter().filter(|p| **p == 0.0).count();
         let d = predictor.dimensions();
         for k in 0..4 {
@@ -293,7 +293,7 @@ fn what_can_no_longer_be_reached_in_time_has_no_likelihood() {
         "arrival": { "type": "uniform", "from": 1, "to": 3 },
         "destinations": destinations,
     });
-    let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap()).unwrap();
+    let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap());
     for k in 0..5 {
         predictor.observe(0.1 * f64::from(k), &[3.0 * f64::from(k), 2.0]).unwrap();
     }
@@ -316,7 +316,7 @@ fn no_probability_is_above_one() {
                 { "id": "behind", "center": [-9000, 50], "size": 40 },
             ],
         });
-        let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap()).unwrap();
+        let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap());
         for step in 0..4 {
             let t = 0.1 * f64::from(step);
             predictor.observe(t, &[3000.0 * t, 50.0 * t]).unwrap();

@@ -16,7 +16,7 @@
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
 //!     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
 //! }"#).unwrap();
-//! let mut predictor = Predictor::new(&scenario).unwrap();
+//! let mut predictor = Predictor::new(&scenario);
 //! predictor.observe(0.0, &[0.0]).unwrap();
 //! predictor.observe(1.0, &[1.0]).unwrap();
 //! // ln N(1; 0, 3) + ln N(4; 2/3, 14/3) - ln N(4; 0, 6), which is ln N(1; 4/3, 7/3), as of algorithm1

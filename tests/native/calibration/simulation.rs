@@ -155,7 +155,7 @@ pub fn reliability(method: &str, family: Family, tracks: usize, count: usize, se
     let mut bins = [Bin::default(); 10];
     for _ in 0..tracks {
         let track = track(&scenario, family, count, &mut random);
-        let mut predictor = Predictor::new(&scenario).expect("a predictor");
+        let mut predictor = Predictor::new(&scenario);
         for (time, position) in &track.observations {
             predictor.observe(*time, position).expect("an observation");
         }

@@ -44,7 +44,7 @@ pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
     let scenario = track.scenario(&template.scenario, &template.extra).map_err(told)?;
-    let mut predictor = Predictor::new(&scenario).map_err(told)?;
+    let mut predictor = Predictor::new(&scenario);
     for sample in &samples[..approach - 1] {
         sample.observe(&mut predictor).map_err(told)?;
         let Some(remaining) = predictor.remaining() else { continue };
@@ -62,7 +62,7 @@ pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -
     for (answer, prior) in answers.none.iter_mut().zip(PRIORS) {
         let mut scenario: Scenario = shown.scenario(&template.scenario, &template.extra).map_err(told)?;
         scenario.none = prior;
-        let mut predictor = Predictor::new(&scenario).map_err(told)?;
+        let mut predictor = Predictor::new(&scenario);
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {
             sample.observe(&mut predictor).map_err(told)?;

@@ -74,7 +74,7 @@ fn of_user(template: &Template, habit: usize, user: u64) -> Result<Vec<Score>, S
         .collect();
     let mut scores = Vec::with_capacity(LEARNING.len());
     for (_, learning) in LEARNING {
-        let mut predictor = Predictor::new(&learner(template, &tracks[0], learning)?).map_err(told)?;
+        let mut predictor = Predictor::new(&learner(template, &tracks[0], learning)?);
         let mut sum = Score::default();
         for (k, track) in tracks.iter().enumerate() {
             if let Some(approach) = track.approach().filter(|_| k >= BEFORE) {

@@ -27,7 +27,7 @@ pub fn scenario(json: serde_json::Value) -> Scenario {
 
 /// The probabilities of all destinations after each observation.
 pub fn beliefs(scenario: &Scenario, movement: &Movement) -> Vec<Vec<f64>> {
-    let mut predictor = Predictor::new(scenario).expect("it was read");
+    let mut predictor = Predictor::new(scenario);
     let believe = |(time, position): &(f64, Vec<f64>)| {
         predictor.observe(*time, position).expect("times ascend and numbers are finite");
         predictor.probabilities().to_vec()

@@ -211,7 +211,7 @@ fn run_times(rounds: usize, progress: &ProgressBar) -> Exhibit {
         // interleaved: what disturbs the machine disturbs all of them
         for (scenarios, times) in scenarios.iter().zip(&mut times) {
             for (scenario, times) in scenarios.iter().zip(times) {
-                let mut predictor = Predictor::new(scenario).expect("it was read");
+                let mut predictor = Predictor::new(scenario);
                 let start = Instant::now();
                 for (time, position) in &track.observations {
                     predictor.observe(*time, position).expect("times ascend");

@@ -83,7 +83,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
 }
 
 fn first_posterior(scenario: &Scenario, movement: &Movement) -> Gaussian {
-    let mut predictor = Predictor::new(scenario).expect("it was read");
+    let mut predictor = Predictor::new(scenario);
     let (time, position) = &movement.observations[0];
     predictor.observe(*time, position).expect("it is legal");
     predictor.initial_state().expect("there is an observation")
