@@ -10,12 +10,12 @@
 
 use super::course::Course;
 use super::parameters::{Parameters, TimeToGo};
-use super::{Symmetric, Vector, dot, minus, vector};
+use super::targets::Extent;
+use super::{Symmetric, Vector, dot, minus};
 use crate::math::gaussian::LN_2_PI;
 use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
-use crate::model::destination::Kind;
 use std::ops::Range;
 
 /// One (scale, time to go).
@@ -224,14 +224,14 @@ fn splat([a, b, c, d, e, f]: &Symmetric) -> Symmetric<Lanes> {
 impl Pairs {
     /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
     #[must_use]
-    pub fn log_density(&self, center: &[f64], kind: &Kind) -> f64 {
-        log_sum_exp(&self.log_terms(center, kind))
+    pub fn log_density(&self, center: &Vector, extent: &Extent) -> f64 {
+        log_sum_exp(&self.log_terms(center, extent))
     }
 
     /// `p(c, R_n | D_i)`, in the order of the pairs; their priors where `N_i` is zero or no number.
     #[must_use]
-    pub fn weights(&self, center: &[f64], kind: &Kind) -> Vec<f64> {
-        let mut terms = self.log_terms(center, kind);
+    pub fn weights(&self, center: &Vector, extent: &Extent) -> Vec<f64> {
+        let mut terms = self.log_terms(center, extent);
         if share(&mut terms).is_none() {
             terms.iter_mut().zip(&self.list).for_each(|(term, pair)| *term = pair.weight);
         }
@@ -239,11 +239,10 @@ impl Pairs {
     }
 
     /// The logarithms of the pairs' densities, weights included.
-    fn log_terms(&self, center: &[f64], kind: &Kind) -> Vec<f64> {
-        let own = symmetric(kind, self.dimensions);
-        let offset = minus(&vector(center), &self.position);
+    fn log_terms(&self, center: &Vector, extent: &Extent) -> Vec<f64> {
+        let offset = minus(center, &self.position);
         let each = self.list.iter().map(|pair| {
-            let (precision, determinant) = inverse(&sum(&pair.covariance, &own), self.dimensions);
+            let (precision, determinant) = inverse(&sum(&pair.covariance, &extent.covariance), self.dimensions);
             let error = minus(&offset, &pair.mean);
             let square = dot(&error, &times(&precision, &error));
             pair.weight.ln() - 0.5 * (square + determinant.ln() + self.dimensions as f64 * LN_2_PI)
@@ -277,14 +276,7 @@ pub fn spread<N: Number>(noise: &[f64; 2], velocity: &Vector, factor: N) -> Symm
     [even + xx, along * N::of(x * y), even + yy, along * N::of(x * z), along * N::of(y * z), even + zz]
 }
 
-/// The position block of an endpoint's covariance.
-#[must_use]
-pub fn symmetric(kind: &Kind, dimensions: usize) -> Symmetric {
-    let at = |r: usize, c: usize| if r < dimensions { kind.variance(r, c) } else { 0.0 };
-    [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)]
-}
-
-/// The inverse and the determinant of a positive definite matrix; of axes that there are not nothing is told.
+/// The inverse and the determinant of a positive definite matrix; entries beyond the dimensions are zero.
 #[inline(never)]
 #[must_use]
 pub fn inverse(matrix: &Symmetric, dimensions: usize) -> (Symmetric, f64) {

@@ -1,9 +1,9 @@
 //! The time to the entry into the target, as it is told to the user.
 
-use super::endpoint::{inverse, symmetric, times};
+use super::endpoint::{inverse, times};
+use super::targets::Extent;
 use super::{Vector, dot};
 use crate::error::{Code, Result};
-use crate::model::destination::Kind;
 use crate::value::{Node, Value};
 
 /// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
@@ -77,11 +77,11 @@ impl EntryTime {
         ])
     }
 
-    /// How near a destination is, from 1 in it to 0 far away: `offset` is the way to its centre, `kind` tells its extent.
+    /// How near a destination is, from 1 in it to 0 far away: `offset` is the way to its centre, `extent` is its own.
     #[must_use]
-    pub fn nearness(&self, offset: &Vector, kind: &Kind, dimensions: usize) -> f64 {
+    pub fn nearness(&self, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
         // a box has the variance side^2/12, so its half side is the root of three variances; the edge is the ellipse in it
-        let (precision, _) = inverse(&symmetric(kind, dimensions), dimensions);
+        let (precision, _) = inverse(&extent.covariance, dimensions);
         let half_sides = (dot(&times(&precision, offset), offset) / 3.0).sqrt();
         let edge = if half_sides > 1.0 { dot(offset, offset).sqrt() * (1.0 - 1.0 / half_sides) } else { 0.0 };
         self.distance / (self.distance + edge)
@@ -99,23 +99,18 @@ impl EntryTime {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::destination::Destination;
 
     #[test]
     fn near_is_told_from_the_edge_of_the_box() {
         let entry =
             EntryTime { offset: 0.0, nodes: 1.0, near: -1.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
-        let kind = |json: &str| {
-            let value: Value = serde_json::from_str(json).unwrap();
-            Destination::read(&Node::root(&value, "destination"), 2, 4).unwrap().kind
-        };
-        let wide = kind(r#"{ "id": "wide", "center": [0, 0], "size": [300, 24] }"#);
+        let wide = Extent::of_box([300.0, 24.0, 0.0]);
         let near = |x: f64, y: f64| entry.nearness(&[x, y, 0.0], &wide, 2);
         assert!((near(170.0, 0.0) - 0.5).abs() < 1e-12, "20 beside its right edge");
         assert!((near(0.0, -32.0) - 0.5).abs() < 1e-12, "20 above its upper edge");
         assert_eq!([near(149.0, 0.0), near(0.0, 0.0)], [1.0, 1.0], "in it");
-        // 12 on a side, 50 from the centre, so 44 from the edge; what is known of the end's velocity does not matter
-        let square = kind(r#"{ "id": "square", "center": [0, 0], "size": 12, "endVelocity": 3 }"#);
+        // 12 on a side, 50 from the centre, so 44 from the edge
+        let square = Extent::of_box([12.0, 12.0, 0.0]);
         assert!((entry.nearness(&[30.0, 40.0, 0.0], &square, 2) - 20.0 / (20.0 + 44.0)).abs() < 1e-12);
     }
 }

@@ -1,9 +1,9 @@
-//! What is said of a destination apart from the endpoint density: seen from the start of the movement.
+//! The evidence on a target besides the endpoint density: its distance and direction from the start of the movement.
 
 use super::course::{Course, Onset};
 use super::parameters::{Direction, Start};
+use super::targets::Extent;
 use super::{Vector, cross, dot, minus};
-use crate::model::destination::Kind;
 
 /// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is observed.
 /// The square of `onset`'s shortfall is added to that of the core.
@@ -16,13 +16,13 @@ pub fn log_start(start: &Start, offset: &Vector, onset: &Onset) -> f64 {
 /// `ln (m^2 / (m^2 + near^2))`, `m` the distance from the start in widths and heights of the target: a movement seldom ends
 /// where it began.
 #[must_use]
-pub fn log_near(near: f64, offset: &Vector, kind: &Kind, dimensions: usize) -> f64 {
+pub fn log_near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     let mut distance = 0.0;
     let mut volume = 1.0;
     for (j, component) in offset.iter().enumerate().take(dimensions) {
-        let extent = kind.side(j);
-        distance += (component / extent).powi(2);
-        volume *= extent;
+        let side = extent.sides[j];
+        distance += (component / side).powi(2);
+        volume *= side;
     }
     // One unit of length, so that a target right under the start keeps a chance.
     distance += (-2.0 / dimensions as f64 * volume.ln()).exp();
@@ -77,27 +77,27 @@ impl<'a> DirectionNow<'a> {
     /// `power w [2 ln(1 + theta^2/(wide^2 + z)) - ln(1 + theta^2/(core^2 + z))]`, with `theta` the angle at the start between
     /// the way covered and the destination at `offset`, and `z` the variance of the target's own direction.
     #[must_use]
-    pub fn log_evidence(&self, offset: &Vector, kind: &Kind) -> f64 {
+    pub fn log_evidence(&self, offset: &Vector, extent: &Extent) -> f64 {
         // a zero that is not negative: what is at the start itself lies in no direction
         let (along, across) = (dot(&self.way, offset) + 0.0, cross(&self.way, offset));
         let angle = dot(&across, &across).sqrt().atan2(along).powi(2);
-        let size = angular_variance(offset, kind, self.dimensions);
+        let size = angular_variance(offset, extent, self.dimensions);
         let term = |square: f64| (angle / (square + size)).ln_1p();
         self.weight * (2.0 * term(self.wide_squared()) - term(self.core_squared()))
     }
 }
 
-/// `z`, the variance of the direction in which a target at `offset` is seen.
+/// `z`, the variance of the direction from the start to a target at `offset`.
 #[must_use]
-fn angular_variance(offset: &Vector, kind: &Kind, dimensions: usize) -> f64 {
+fn angular_variance(offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     if dimensions == 1 {
         return 0.0;
     }
     let (mut trace, mut towards) = (0.0, 0.0);
     for j in 0..dimensions {
-        trace += kind.variance(j, j);
+        trace += extent.variance(j, j);
         for k in 0..dimensions {
-            towards += offset[j] * kind.variance(j, k) * offset[k];
+            towards += offset[j] * extent.variance(j, k) * offset[k];
         }
     }
     let square = dot(offset, offset);

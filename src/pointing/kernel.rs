@@ -10,10 +10,10 @@
 use super::Vector;
 use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
+use super::from_start::FromStart;
 use super::targets::{Class, Targets};
-use crate::math::kernel::mixture::{AXES, Density, Places, SharedDensity, weigh_in};
+use crate::math::kernel::mixture::{Density, Places, SharedDensity, weigh_in};
 use crate::math::kernel::vectors::{Block, Lanes, raise};
-use crate::model::destination::Destinations;
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
 const CERTAIN: f64 = -500.0;
@@ -51,22 +51,21 @@ impl Work {
     /// leave the range in which this holds.
     pub fn probabilities(
         &mut self,
-        destinations: &Destinations,
         targets: &Targets,
+        from_start: &FromStart,
         now: &Now<'_>,
         into: &mut Vec<f64>,
     ) -> Option<f64> {
-        if !targets.moderate {
+        if !from_start.moderate {
             return None;
         }
         let Self { shared, densities, aside } = self;
-        let weights = targets.layout.room(aside, into);
+        let weights = targets.layout().room(aside, into);
         let d = now.nodes.dimensions();
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
-        for class in &targets.classes {
-            let (places, blocks) =
-                (targets.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]), class.blocks.clone());
-            let (over_start, weights) = (&targets.over_start[blocks.clone()], &mut weights[blocks]);
+        for class in targets.classes() {
+            let (places, blocks) = (targets.places(&class.blocks), class.blocks.clone());
+            let (over_start, weights) = (&from_start.over_start[blocks.clone()], &mut weights[blocks]);
             match &class.covariance {
                 Some(covariance) => {
                     now.nodes.shared_densities(covariance, shared);
@@ -81,11 +80,11 @@ impl Work {
             (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
         let shift = most.round();
-        let (total, certain) = (raise(weights, &targets.priors, shift), doubtful < most - NOTHING);
+        let (total, certain) = (raise(weights, &from_start.priors, shift), doubtful < most - NOTHING);
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
             return None;
         }
-        targets.layout.settle(aside, into);
+        targets.layout().settle(aside, into);
         let over = 1.0 / total;
         into.iter_mut().for_each(|weight| *weight *= over);
         Some(total.ln() + shift * std::f64::consts::LN_2)

@@ -19,9 +19,11 @@
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
 
 pub(crate) mod course;
+mod destinations;
 pub(crate) mod endpoint;
 pub mod entry_time;
 pub(crate) mod evidence;
+pub(crate) mod from_start;
 pub(crate) mod kernel;
 pub mod parameters;
 mod posterior;
@@ -29,10 +31,10 @@ mod state;
 pub(crate) mod targets;
 
 use crate::math::log_sum_exp::share;
-use crate::model::destination::Destinations;
 use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
+use from_start::FromStart;
 use kernel::{Now, Work};
 use parameters::Parameters;
 use std::sync::Arc;
@@ -80,43 +82,37 @@ pub fn vector(components: &[f64]) -> Vector {
 #[derive(Clone, Debug)]
 pub(crate) struct Pointing {
     parameters: Arc<Parameters>,
+    targets: Arc<Targets>,
     /// That of the start density.
     log_volume: f64,
     course: Course,
     nodes: Nodes,
-    targets: Targets,
+    from_start: FromStart,
     work: Work,
 }
 
 impl Pointing {
     /// Begins at the first observation, of variance `variances` in each axis.
     #[must_use]
-    pub fn begin(
-        parameters: Arc<Parameters>,
-        destinations: &Destinations,
-        position: &[f64],
-        variances: &[f64],
-    ) -> Self {
+    pub fn begin(parameters: Arc<Parameters>, targets: Arc<Targets>, position: &[f64], variances: &[f64]) -> Self {
         let course = Course::begin(&parameters, position, variances);
-        Self::resume(parameters, destinations, course)
+        Self::resume(parameters, targets, course)
     }
 
     /// Goes on from a course that was saved.
     #[must_use]
-    pub fn resume(parameters: Arc<Parameters>, destinations: &Destinations, course: Course) -> Self {
-        let (nodes, targets) = (Nodes::new(&parameters, &course), Targets::default());
+    pub fn resume(parameters: Arc<Parameters>, targets: Arc<Targets>, course: Course) -> Self {
+        let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets));
         let log_volume = parameters.start.log_volume(course.dimensions());
-        let mut pointing = Self { parameters, log_volume, course, nodes, targets, work: Work::default() };
-        pointing.replan(destinations);
-        pointing
+        Self { parameters, targets, log_volume, course, nodes, from_start, work: Work::default() }
     }
 
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
-    /// of the last one it replaces that. `destinations` are those that the movement began with or was last given.
-    pub fn advance(&mut self, destinations: &Destinations, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+    /// of the last one it replaces that.
+    pub fn advance(&mut self, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
         self.course.advance(&self.parameters, elapsed, position, variances);
         if self.course.observations < 2 {
-            self.replan(destinations);
+            self.from_start.forget();
         }
         self.nodes.refresh(&self.parameters, &self.course);
     }
@@ -131,56 +127,65 @@ impl Pointing {
         &self.course
     }
 
-    /// Other destinations, in mid-movement too.
-    pub fn replan(&mut self, destinations: &Destinations) {
-        self.targets.fill(destinations, &self.parameters, self.log_volume, &self.course.start);
+    /// The targets.
+    #[must_use]
+    pub fn targets(&self) -> &Targets {
+        &self.targets
     }
 
-    /// Writes the probabilities among the destinations, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
+    /// Other targets, in mid-movement too: nothing accumulates for any of them.
+    pub fn replan(&mut self, targets: Arc<Targets>) {
+        self.from_start = FromStart::of(&targets);
+        self.targets = targets;
+    }
+
+    /// Writes the probabilities among the targets, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
     /// logarithm of that sum; none where nothing is known of any of them.
-    pub fn probabilities(&mut self, destinations: &Destinations, into: &mut Vec<f64>) -> Option<f64> {
-        let onset = self.onset();
-        if self.course.observations > 1 {
-            self.targets.begin(destinations, &self.parameters, self.log_volume, &self.course.start, onset);
+    fn probabilities(&mut self, into: &mut Vec<f64>) -> Option<f64> {
+        let (onset, d) = (self.onset(), self.course.dimensions());
+        let Self { parameters, targets, course, .. } = self;
+        if course.observations > 1 {
+            self.from_start.update(targets, parameters, d, self.log_volume, &course.start, onset);
             let now = Now {
                 nodes: &self.nodes,
-                direction: &DirectionNow::new(&self.parameters.direction, &self.course),
-                start: &self.course.start,
-                power: self.parameters.power.after(self.course.elapsed),
+                direction: &DirectionNow::new(&parameters.direction, course),
+                start: &course.start,
+                power: parameters.power.after(course.elapsed),
             };
-            if let Some(log_sum) = self.work.probabilities(destinations, &self.targets, &now, into) {
+            if let Some(log_sum) = self.work.probabilities(targets, &self.from_start, &now, into) {
                 return Some(log_sum);
             }
         }
-        self.log_likelihoods(destinations, into);
-        let total: f64 = destinations.priors().iter().sum();
-        for (i, (value, prior)) in into.iter_mut().zip(destinations.priors()).enumerate() {
-            let offset = minus(&vector(&destinations.center(i)), &self.course.start);
-            let near = log_near(self.parameters.near, &offset, destinations.kind(i), self.course.dimensions());
+        self.log_likelihoods(into);
+        let priors = self.targets.priors();
+        let total: f64 = priors.iter().sum();
+        for (i, (value, prior)) in into.iter_mut().zip(priors).enumerate() {
+            let offset = minus(&self.targets.center(i), &self.course.start);
+            let near = log_near(self.parameters.near, &offset, self.targets.extent(i), d);
             *value += onset.share * near + (prior / total).ln();
         }
         share(into)
     }
 
-    /// `g (ln N_i - ln S_i) + B_i` for every destination; zero after the first observation alone.
-    pub fn log_likelihoods(&self, destinations: &Destinations, into: &mut Vec<f64>) {
+    /// `g (ln N_i - ln S_i) + B_i` for every target; zero after the first observation alone.
+    pub fn log_likelihoods(&self, into: &mut Vec<f64>) {
         let parameters = &*self.parameters;
         into.clear();
         if self.course.observations < 2 {
-            into.resize(destinations.len(), 0.0);
+            into.resize(self.targets.len(), 0.0);
             return;
         }
         let power = parameters.power.after(self.course.elapsed);
         let direction = DirectionNow::new(&parameters.direction, &self.course);
         let (pairs, onset) = (self.nodes.pairs(), self.onset());
-        into.extend((0..destinations.len()).map(|i| {
-            let (center, kind) = (destinations.center(i), destinations.kind(i));
-            let offset = minus(&vector(&center), &self.course.start);
+        into.extend((0..self.targets.len()).map(|i| {
+            let (center, extent) = (self.targets.center(i), self.targets.extent(i));
+            let offset = minus(&center, &self.course.start);
             let start = log_start(&parameters.start, &offset, &onset) - self.log_volume;
-            let seen = direction.log_evidence(&offset, kind);
-            let whole = power * (pairs.log_density(&center, kind) - start) + seen;
-            // beyond what numbers can tell, as far away and as fast as nothing on a screen, nothing is known
-            if whole < f64::INFINITY { whole } else { f64::NEG_INFINITY }
+            let evidence = direction.log_evidence(&offset, extent);
+            let sum = power * (pairs.log_density(&center, extent) - start) + evidence;
+            // beyond the range of numbers, as far away and as fast as nothing on a screen, nothing is known
+            if sum < f64::INFINITY { sum } else { f64::NEG_INFINITY }
         }));
     }
 

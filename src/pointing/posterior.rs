@@ -1,47 +1,56 @@
-//! The posterior of the pointing model: destinations, none of them, the time to go.
+//! The posterior of the pointing model: targets, none of them, the time to go.
 
-use super::{Pointing, minus, vector};
-use crate::model::destination::Destinations;
+use super::{Pointing, minus};
 use crate::posterior::arrival_time::Arrival;
-use crate::posterior::{Posterior, Shares};
+use crate::posterior::{Shares, shares};
 
-impl Posterior {
-    /// The probabilities among the destinations against none of them, whose prior is `none`, with the even share spread
-    /// over the destinations that are possible at all.
-    pub(crate) fn update_pointing(&mut self, pointing: &mut Pointing, destinations: &Destinations, none: f64) {
-        let Some(log_sum) = pointing.probabilities(destinations, &mut self.probabilities) else {
-            return self.believe_prior(destinations, none);
+impl Pointing {
+    /// Writes the probabilities of the targets against none of them, whose prior is `none`, with the even share distributed over
+    /// the targets that are possible at all, and returns the probability of none.
+    pub fn posterior(&mut self, none: f64, into: &mut Vec<f64>) -> f64 {
+        let Some(log_sum) = self.probabilities(into) else {
+            shares::prior(self.targets().priors(), none, into);
+            return none;
         };
-        let (kept, uniform) = (pointing.parameters().none_share, pointing.parameters().uniform);
-        self.none = match none {
+        let (kept, uniform) = (self.parameters().none_share, self.parameters().uniform);
+        let none = match none {
             0.0 => 0.0,
             none => {
-                let log_odds = (none / (1.0 - none)).ln() + pointing.log_likelihood_of_none() - log_sum;
+                let log_odds = (none / (1.0 - none)).ln() + self.log_likelihood_of_none() - log_sum;
                 (1.0 - kept) / (1.0 + (-log_odds).exp()) + kept * none
             }
         };
-        let priors = destinations.priors();
+        let priors = self.targets().priors();
         let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
-        let (kept, even) = ((1.0 - self.none) * (1.0 - uniform), (1.0 - self.none) * (uniform / possible as f64));
-        for (value, prior) in self.probabilities.iter_mut().zip(priors) {
+        let (kept, even) = ((1.0 - none) * (1.0 - uniform), (1.0 - none) * (uniform / possible as f64));
+        for (value, prior) in into.iter_mut().zip(priors) {
             *value = kept * *value + if *prior > 0.0 { even } else { 0.0 };
         }
+        none
     }
-}
 
-impl Pointing {
+    /// The targets with their shares of these probabilities, which [`Pointing::posterior`] wrote, or one of them alone.
+    #[must_use]
+    pub fn shares(&self, probabilities: &[f64], only: Option<usize>) -> Vec<(usize, f64)> {
+        shares::beside_none(probabilities, self.targets().priors(), only, || {
+            let mut log_likelihoods = Vec::new();
+            self.log_likelihoods(&mut log_likelihoods);
+            log_likelihoods
+        })
+    }
+
     /// The median of the time to the entry into the target and its interval, where the scenario has constants for it.
     #[must_use]
-    pub fn entry_time(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<[f64; 3]> {
+    pub fn entry_time(&self, shares: Shares<'_>) -> Option<[f64; 3]> {
         let entry = self.parameters().remaining.as_ref()?;
         let (pairs, course) = (self.nodes().pairs(), self.course());
         let position = course.position();
         let (mut mean, mut near, mut total) = (0.0, 0.0, 0.0);
         for &(i, share) in shares {
-            let (center, kind) = (destinations.center(i), destinations.kind(i));
-            let weights = pairs.weights(&center, kind);
+            let (center, extent) = (self.targets().center(i), self.targets().extent(i));
+            let weights = pairs.weights(&center, extent);
             mean += share * pairs.list.iter().zip(&weights).map(|(pair, weight)| weight * pair.time.ln()).sum::<f64>();
-            near += share * entry.nearness(&minus(&vector(&center), &position), kind, course.dimensions());
+            near += share * entry.nearness(&minus(&center, &position), extent, course.dimensions());
             total += share;
         }
         Some(entry.at(mean / total, near / total, course.elapsed))
@@ -49,11 +58,11 @@ impl Pointing {
 
     /// The posterior of the arrival time, in seconds since the first observation.
     #[must_use]
-    pub fn arrival(&self, destinations: &Destinations, shares: Shares<'_>) -> Arrival {
+    pub fn arrival(&self, shares: Shares<'_>) -> Arrival {
         let pairs = self.nodes().pairs();
         let mut nodes: Vec<_> = pairs.list.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
         for &(i, share) in shares {
-            let weights = pairs.weights(&destinations.center(i), destinations.kind(i));
+            let weights = pairs.weights(&self.targets().center(i), self.targets().extent(i));
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
         }
         Arrival::from_nodes(&nodes)

@@ -5,9 +5,8 @@
 //! Roots of covariances all the way, so that no variance is a difference.
 
 use super::endpoint::{Pair, spread};
-use super::{Pointing, Symmetric, minus, vector};
+use super::{Pointing, Symmetric, minus};
 use crate::math::gaussian::{Conditioning, Gaussian, condition_root, root, square, triangularise};
-use crate::model::destination::Destinations;
 use crate::posterior::Shares;
 use crate::posterior::state::Moments;
 use nalgebra::{DMatrix, DVector};
@@ -15,17 +14,17 @@ use nalgebra::{DMatrix, DVector};
 impl Pointing {
     /// The state `later` seconds after the latest observation, given that the movement ends at one of the destinations.
     #[must_use]
-    pub fn state(&self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
-        self.mix(destinations, shares, |pair| self.ahead(pair, later.min(pair.time)))
+    pub fn state(&self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
+        self.mix(shares, |pair| self.ahead(pair, later.min(pair.time)))
     }
 
     /// The state at the first observation, given all of them and that the movement ends at one of the destinations.
     #[must_use]
-    pub fn initial_state(&self, destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
-        self.mix(destinations, shares, |pair| self.at_start(pair))
+    pub fn initial_state(&self, shares: Shares<'_>) -> Option<Gaussian> {
+        self.mix(shares, |pair| self.at_start(pair))
     }
 
-    fn mix(&self, destinations: &Destinations, shares: Shares<'_>, view: impl Fn(&Pair) -> View) -> Option<Gaussian> {
+    fn mix(&self, shares: Shares<'_>, view: impl Fn(&Pair) -> View) -> Option<Gaussian> {
         let d = self.course().dimensions();
         let pairs = self.nodes().pairs();
         let views: Vec<View> = pairs.list.iter().map(view).collect();
@@ -33,14 +32,14 @@ impl Pointing {
         let mut kind = None;
         let mut conditioned = Vec::new();
         for &(i, share) in shares {
-            if kind != Some(destinations.kind_number(i)) {
-                kind = Some(destinations.kind_number(i));
+            if kind != Some(self.targets().extent_number(i)) {
+                kind = Some(self.targets().extent_number(i));
                 conditioned.clear();
-                let covariance = destinations.kind(i).covariance();
+                let covariance = matrix(&self.targets().extent(i).covariance, d);
                 conditioned.extend(views.iter().map(|view| view.conditioned(&covariance)));
             }
-            let weights = pairs.weights(&destinations.center(i), destinations.kind(i));
-            let offset = minus(&vector(&destinations.center(i)), &self.course().position());
+            let weights = pairs.weights(&self.targets().center(i), self.targets().extent(i));
+            let offset = minus(&self.targets().center(i), &self.course().position());
             for (((pair, view), known), weight) in pairs.list.iter().zip(&views).zip(&conditioned).zip(weights) {
                 let (weight, Some((gain, covariance))) = (share * weight, known) else { continue };
                 if weight <= 0.0 {
@@ -123,8 +122,8 @@ struct View {
 impl View {
     /// The gain and the covariance given the endpoint, whose own covariance is this; none where it is singular.
     fn conditioned(&self, own: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
-        let (d, size) = (self.noise.nrows(), self.mean.len());
-        let noise = &self.noise + own.view((0, 0), (d, d));
+        let size = self.mean.len();
+        let noise = &self.noise + own;
         let Conditioning { gain, root, .. } = condition_root(&self.root, &self.endpoint, &noise)?;
         Some((gain.rows(0, size).into_owned(), square(&root.rows(0, size).into_owned())))
     }

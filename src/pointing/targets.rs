@@ -1,105 +1,168 @@
-//! The destinations as flat arrays for the hot loop, by class, with what the start of the movement says of each.
+//! The targets of a movement as flat arrays for the hot loop, by the covariance of their endpoints.
 
-use super::course::Onset;
-use super::evidence::{log_near, log_start};
-use super::parameters::Parameters;
-use super::{Symmetric, Vector, minus, vector};
+use super::{Symmetric, Vector};
+use crate::math::kernel::columns::{Column, Filler};
 use crate::math::kernel::layout::{FEW, Layout};
-use crate::math::kernel::vectors::{Block, WIDTH};
-use crate::model::destination::{Destinations, Kind};
-use crate::pointing::endpoint::symmetric;
+use crate::math::kernel::mixture::{AXES, Places};
 use std::ops::Range;
 
-/// Powers of `e` beyond this leave too little room for the rest of a product.
-const MODERATE: f64 = 200.0;
+/// What targets of one size have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// The covariance of the endpoint in position, `S_i`.
+    pub covariance: Symmetric,
+    /// The sides of the box over which a uniform density has these variances; zero in axes beyond the dimensions.
+    pub sides: Vector,
+}
 
-/// Destinations that stand together.
+impl Extent {
+    /// A uniform density over a box with these sides: variances of `side^2 / 12`.
+    #[must_use]
+    pub fn of_box(sides: Vector) -> Self {
+        let [x, y, z] = sides;
+        Self { covariance: [x * x / 12.0, 0.0, y * y / 12.0, 0.0, 0.0, z * z / 12.0], sides }
+    }
+
+    /// One entry of the covariance.
+    #[must_use]
+    pub fn variance(&self, row: usize, column: usize) -> f64 {
+        const PLACES: [[usize; AXES]; AXES] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
+        self.covariance[PLACES[row][column]]
+    }
+
+    /// Whether the axes of the endpoint are independent.
+    fn is_separable(&self) -> bool {
+        let [_, xy, _, xz, yz, _] = self.covariance;
+        xy == 0.0 && xz == 0.0 && yz == 0.0
+    }
+}
+
+/// One target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Its centre, the mean of the endpoint.
+    pub center: Vector,
+    /// Its place in the list of extents.
+    pub extent: usize,
+    /// Its prior weight; only ratios matter.
+    pub prior: f64,
+}
+
+/// Targets that are evaluated together.
 #[derive(Clone, Debug)]
 pub struct Class {
     /// The covariance of their endpoints; none where each has its own variances.
     pub covariance: Option<Symmetric>,
-    /// Where they stand.
+    /// Their blocks.
     pub blocks: Range<usize>,
 }
 
-/// All destinations.
-#[derive(Clone, Debug, Default)]
+/// All targets, in order.
+#[derive(Clone, Debug)]
 pub struct Targets {
-    /// By the covariance of the endpoint.
-    pub classes: Vec<Class>,
-    /// `1 / S_i`.
-    pub over_start: Vec<Block>,
-    /// Prior probabilities times the factor `near`; zero where a block is filled up.
-    pub priors: Vec<Block>,
-    /// Whether no number is so large or small that products with it may leave their range.
-    pub moderate: bool,
-    /// Where they stand.
-    pub layout: Layout,
-    /// How far the movement had begun when the start was last asked.
-    onset: Option<Onset>,
+    centers: [Column; AXES],
+    priors: Vec<f64>,
+    extents: Vec<Extent>,
+    extent_of: Vec<u32>,
+    classes: Vec<Class>,
+    layout: Layout,
 }
 
 impl Targets {
-    /// Writes down the destinations as a movement from `start` sees them; `log_volume` is that of the start density.
-    pub fn fill(&mut self, destinations: &Destinations, parameters: &Parameters, log_volume: f64, start: &Vector) {
-        let d = destinations.dimensions();
-        self.classes.clear();
-        self.layout = Layout::default();
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); destinations.kinds().len()];
-        for i in 0..destinations.len() {
-            members[destinations.kind_number(i)].push(i as u32);
+    /// Targets in so many dimensions; every number of an extent is one of a place in `extents`.
+    #[must_use]
+    pub fn new(dimensions: usize, extents: Vec<Extent>, list: impl ExactSizeIterator<Item = Target>) -> Self {
+        let count = list.len();
+        let column = |axis: usize| Column::with_capacity(if axis < dimensions { count } else { 0 }, Filler::First);
+        let mut targets = Self {
+            centers: [column(0), column(1), column(2)],
+            priors: Vec::with_capacity(count),
+            extents,
+            extent_of: Vec::with_capacity(count),
+            classes: Vec::new(),
+            layout: Layout::default(),
+        };
+        for Target { center, extent, prior } in list {
+            for (column, component) in targets.centers.iter_mut().zip(center).take(dimensions) {
+                column.push(component);
+            }
+            targets.priors.push(prior);
+            targets.extent_of.push(extent as u32);
         }
-        let mut pool = Vec::new();
+        targets.classify();
+        targets
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.priors.len()
+    }
+
+    /// The centre of one.
+    #[must_use]
+    pub fn center(&self, i: usize) -> Vector {
+        let [x, y, z] = &self.centers;
+        [x.get(i), y.get(i), z.get(i)]
+    }
+
+    /// The place of a target's extent in the list of them: equal for targets that have one.
+    #[must_use]
+    pub fn extent_number(&self, i: usize) -> usize {
+        self.extent_of[i] as usize
+    }
+
+    /// The extent of one.
+    #[must_use]
+    pub fn extent(&self, i: usize) -> &Extent {
+        &self.extents[self.extent_number(i)]
+    }
+
+    /// The prior weights, not normalised.
+    #[must_use]
+    pub fn priors(&self) -> &[f64] {
+        &self.priors
+    }
+
+    /// Those that are evaluated together.
+    #[must_use]
+    pub fn classes(&self) -> &[Class] {
+        &self.classes
+    }
+
+    /// The order of the blocks.
+    #[must_use]
+    pub const fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The centres, and where each has its own the variances, of some blocks.
+    #[must_use]
+    pub fn places(&self, blocks: &Range<usize>) -> Places<'_> {
+        let [x, y, z] = &self.centers;
+        self.layout.places([x.blocks(), y.blocks(), z.blocks()], blocks, [0.0; AXES])
+    }
+
+    /// Those of one extent together; where an extent has few, among others that are alike in being separable.
+    fn classify(&mut self) {
+        let mut members: Vec<Vec<u32>> = vec![Vec::new(); self.extents.len()];
+        for (&extent, i) in self.extent_of.iter().zip(0..) {
+            members[extent as usize].push(i);
+        }
         let several = members.iter().filter(|members| !members.is_empty()).count() > 1;
-        for (kind, members) in destinations.kinds().iter().zip(&members) {
-            if several && members.len() < FEW && is_straight(kind, d) {
+        let mut pool = Vec::new();
+        for (number, members) in members.iter().enumerate() {
+            let extent = self.extents[number];
+            if several && members.len() < FEW && extent.is_separable() {
                 pool.extend(members);
             } else {
-                self.place(members, Some(symmetric(kind, d)));
+                self.place(members, Some(extent.covariance));
             }
         }
         self.place(&pool, None);
-        self.layout.finish(destinations.len(), destinations.coordinates(), &|i, axis| {
-            destinations.kind(i).variance(axis, axis)
-        });
-        self.onset = None;
-        self.begin(destinations, parameters, log_volume, start, Onset::BEGUN);
-    }
-
-    /// Writes down what the start says of each once the movement has begun so far, where that has changed.
-    pub fn begin(
-        &mut self,
-        destinations: &Destinations,
-        parameters: &Parameters,
-        log_volume: f64,
-        start: &Vector,
-        onset: Onset,
-    ) {
-        if self.onset.replace(onset) == Some(onset) {
-            return;
-        }
-        let d = destinations.dimensions();
-        let total: f64 = destinations.priors().iter().sum();
-        self.moderate = true;
-        for list in [&mut self.over_start, &mut self.priors] {
-            list.clear();
-            list.reserve_exact(self.layout.blocks());
-        }
-        for block in self.layout.members() {
-            let [mut over_start, mut priors] = [[0.0; WIDTH]; 2];
-            for (lane, (i, stands)) in block.into_iter().enumerate() {
-                let (kind, offset) = (destinations.kind(i), minus(&vector(&destinations.center(i)), start));
-                let log_start = log_start(&parameters.start, &offset, &onset) - log_volume;
-                let near = onset.share * log_near(parameters.near, &offset, kind, d);
-                self.moderate &= log_start.abs() < MODERATE && near > -MODERATE;
-                over_start[lane] = (-log_start).exp();
-                if stands {
-                    priors[lane] = destinations.priors()[i] / total * near.exp();
-                }
-            }
-            self.over_start.push(over_start);
-            self.priors.push(priors);
-        }
+        let Self { centers: [x, y, z], extents, extent_of, layout, .. } = self;
+        let coordinates = [x.blocks(), y.blocks(), z.blocks()];
+        layout.finish(extent_of.len(), coordinates, &|i, axis| extents[extent_of[i] as usize].variance(axis, axis));
     }
 
     fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {
@@ -108,9 +171,4 @@ impl Targets {
             self.classes.push(Class { covariance, blocks });
         }
     }
-}
-
-/// Whether the axes of an endpoint are independent.
-fn is_straight(kind: &Kind, dimensions: usize) -> bool {
-    (0..dimensions).all(|i| (0..i).all(|j| kind.variance(i, j) == 0.0))
 }

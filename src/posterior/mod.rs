@@ -1,10 +1,10 @@
 //! Liang (3): the posterior over destinations, and "none of them".
 
 pub mod arrival_time;
+pub(crate) mod shares;
 pub mod state;
 
 use crate::likelihood::candidates::Movement;
-use crate::math::kernel::vectors::WIDTH;
 use crate::math::log_sum_exp::{log_sum_exp, share};
 use crate::model::destination::Destinations;
 
@@ -18,9 +18,6 @@ use crate::model::destination::Destinations;
 /// assert_eq!(total(&[(0, 0.125), (4, 0.375)]), 0.5);
 /// ```
 pub type Shares<'a> = &'a [(usize, f64)];
-
-/// Below this, probabilities beside that of none have lost digits: what they are among each other is taken from the logs.
-const SMALLEST_SUM: f64 = 1e-280;
 
 /// What is believed after an observation.
 ///
@@ -57,11 +54,7 @@ impl Posterior {
 
     /// What is believed where no destination can be reached, so that every likelihood is zero.
     pub fn believe_prior(&mut self, destinations: &Destinations, none: f64) {
-        let total: f64 = destinations.priors().iter().sum();
-        self.probabilities.clear();
-        // room for whole blocks, which a step fills before it cuts them to the count
-        self.probabilities.reserve_exact(destinations.len().next_multiple_of(WIDTH));
-        self.probabilities.extend(destinations.priors().iter().map(|prior| (1.0 - none) * prior / total));
+        shares::prior(destinations.priors(), none, &mut self.probabilities);
         self.none = none;
     }
 
@@ -126,28 +119,10 @@ impl Posterior {
         terms
     }
 
-    /// Whether what "none" leaves of the probabilities is enough to tell the destinations apart; else the log likelihoods do.
-    #[must_use]
-    pub fn tells_destinations_apart(&self) -> bool {
-        self.probabilities.iter().sum::<f64>() > SMALLEST_SUM
-    }
-
     /// The destinations with their shares of what is not none, or one of them alone.
     #[must_use]
     pub fn shares(&self, destinations: &Destinations, only: Option<usize>) -> Vec<(usize, f64)> {
-        if let Some(one) = only {
-            return vec![(one, 1.0)];
-        }
-        let beside_none: Vec<f64> = if self.tells_destinations_apart() {
-            self.probabilities.clone()
-        } else {
-            let weighed = self.log_likelihoods.iter().zip(destinations.priors()).map(|(l, prior)| l + prior.ln());
-            let mut weighed: Vec<f64> = weighed.collect();
-            if share(&mut weighed).is_none() {
-                weighed.fill(0.0);
-            }
-            weighed
-        };
-        beside_none.into_iter().enumerate().filter(|(_, share)| *share > 0.0).collect()
+        let log_likelihoods = || self.log_likelihoods.clone();
+        shares::beside_none(&self.probabilities, destinations.priors(), only, log_likelihoods)
     }
 }

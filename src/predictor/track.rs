@@ -9,6 +9,7 @@ use crate::likelihood::pseudo_observation::Telescoped;
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
 use crate::pointing::course::Course;
+use crate::pointing::targets::Targets;
 use crate::pointing::{Pointing, parameters::axis_variances};
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
@@ -100,7 +101,7 @@ impl Track {
             }
             Engine::Pointing(parameters) => {
                 let variances = axis_variances(observed.noise, "noise")?;
-                let pointing = Pointing::begin(Arc::clone(parameters), destinations, &start, &variances);
+                let pointing = Pointing::begin(Arc::clone(parameters), targets(destinations), &start, &variances);
                 Followed::Pointing(Box::new(pointing))
             }
         };
@@ -162,7 +163,7 @@ impl Track {
                 *dense = None;
             }
             Followed::Pointing(pointing) => {
-                pointing.advance(destinations, elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
+                pointing.advance(elapsed, observed.position, &axis_variances(observed.noise, "noise")?);
                 let start = &pointing.course().start;
                 self.start.iter_mut().zip(start).for_each(|(to, from)| *to = *from);
             }
@@ -184,7 +185,7 @@ impl Track {
                     None => posterior.believe_prior(destinations, none),
                 }
             }
-            Followed::Pointing(pointing) => posterior.update_pointing(pointing, destinations, none),
+            Followed::Pointing(pointing) => posterior.none = pointing.posterior(none, &mut posterior.probabilities),
         }
     }
 
@@ -196,7 +197,7 @@ impl Track {
                 let believed = before.as_deref_mut().unwrap_or(now);
                 believed.log_likelihoods(destinations, &mut posterior.log_likelihoods);
             }
-            Followed::Pointing(pointing) => pointing.log_likelihoods(destinations, &mut posterior.log_likelihoods),
+            Followed::Pointing(pointing) => pointing.log_likelihoods(&mut posterior.log_likelihoods),
         }
     }
 
@@ -232,7 +233,7 @@ impl Track {
         only: Option<usize>,
     ) -> Option<Arrival> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return Some(pointing.arrival(destinations, &shares(pointing, posterior, destinations, only)));
+            return Some(pointing.arrival(&pointing.shares(&posterior.probabilities, only)));
         }
         let (_, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.arrival(believed, &posterior.shares(destinations, only))
@@ -255,8 +256,7 @@ impl Track {
             return None;
         }
         if let Followed::Pointing(pointing) = &self.followed
-            && let Some([mean, low, high]) =
-                pointing.entry_time(destinations, &shares(pointing, posterior, destinations, None))
+            && let Some([mean, low, high]) = pointing.entry_time(&pointing.shares(&posterior.probabilities, None))
         {
             return Some(Remaining { mean, low, high });
         }
@@ -278,7 +278,7 @@ impl Track {
         only: Option<usize>,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return pointing.state(destinations, &shares(pointing, posterior, destinations, only), later);
+            return pointing.state(&pointing.shares(&posterior.probabilities, only), later);
         }
         let (movement, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.state(believed, movement, destinations, &posterior.shares(destinations, only), later)
@@ -292,7 +292,7 @@ impl Track {
         destinations: &Destinations,
     ) -> Option<Gaussian> {
         if let Followed::Pointing(pointing) = &self.followed {
-            return pointing.initial_state(destinations, &shares(pointing, posterior, destinations, None));
+            return pointing.initial_state(&pointing.shares(&posterior.probabilities, None));
         }
         let (_, believed) = self.dense(scenario, destinations, posterior)?;
         posterior.initial_state(believed, &posterior.shares(destinations, None))
@@ -328,7 +328,7 @@ impl Track {
                 };
                 *dense = None;
             }
-            Followed::Pointing(pointing) => pointing.replan(destinations),
+            Followed::Pointing(pointing) => pointing.replan(targets(destinations)),
         }
     }
 
@@ -399,7 +399,7 @@ impl Track {
                     return Err(Error::new(Code::UnknownKey, "frozen", "has no place with the method \"pointing\""));
                 }
                 let course = Course::load(&saved, destinations.dimensions())?;
-                Followed::Pointing(Box::new(Pointing::resume(Arc::clone(parameters), destinations, course)))
+                Followed::Pointing(Box::new(Pointing::resume(Arc::clone(parameters), targets(destinations), course)))
             }
         };
         Ok(Self {
@@ -411,17 +411,8 @@ impl Track {
     }
 }
 
-/// [`Posterior::shares`], which asks for the log likelihoods where "none" has left no digits.
-fn shares(
-    pointing: &Pointing,
-    posterior: &mut Posterior,
-    destinations: &Destinations,
-    only: Option<usize>,
-) -> Vec<(usize, f64)> {
-    if !posterior.tells_destinations_apart() {
-        pointing.log_likelihoods(destinations, &mut posterior.log_likelihoods);
-    }
-    posterior.shares(destinations, only)
+fn targets(destinations: &Destinations) -> Arc<Targets> {
+    Arc::new(Targets::from(destinations))
 }
 
 /// What [`Followed::Telescoped`] follows, as the dense engines have it.
