@@ -45,9 +45,7 @@ export async function buildWasm() {
     rmSync(join(root, generated), { recursive: true, force: true });
     await compileTools();
     for (const [i, { name, bytes }] of modules.entries()) {
-      const snipped = `target/wasm/${name}.snipped.wasm`;
-      await xtask("snip", compiled[i], snipped);
-      await bindgen(snipped, name);
+      await bindgen(compiled[i], name);
       await during(`making ${name}.wasm small`, async () => {
         await optimise(name);
         await embed(name, bytes);
@@ -61,8 +59,6 @@ async function toWasm({ name, features }, file) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
-    // What refers to what, by which `xtask snip` finds what is not in use.
-    "-Clink-arg=--emit-relocs",
     // The same file on every machine: panic messages name source files.
     `--remap-path-prefix=${process.env.CARGO_HOME ?? join(homedir(), ".cargo")}=cargo`,
     `--remap-path-prefix=${sysroot}=rust`,
@@ -85,39 +81,29 @@ function xtask(...args) {
 }
 
 /** The classes that call WebAssembly and the functions that it calls. `js/core/loading/instantiate.ts` joins both. */
-async function bindgen(snipped, name) {
+async function bindgen(compiled, name) {
   const options = ["--target", "bundler", "--remove-producers-section"];
-  await xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, snipped);
+  await xtask("bindgen", ...options, "--out-dir", generated, "--out-name", name, compiled);
   const file = (end) => join(root, generated, `${name}${end}`);
   // What it would make when it is imported, `js/core/loading/platform.ts` makes at its first use.
   const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../core/loading/platform.ts";\n';
   const code = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function __wb(?!g_set_wasm\b))/gm, "");
-  const called = imported(file("_bg.wasm")).map(({ name }) => name);
-  await xtask("number", file("_bg.wasm"), file("_bg.wasm"));
-  const [{ module }] = imported(file("_bg.wasm"));
-  const imports = `export function imports() {\n  return { "${module}": [${called.join(", ")}] };\n}\n`;
+  const called = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(file("_bg.wasm"))));
+  const names = called.map(({ name }) => name).join(", ");
+  const imports = `export function imports() {\n  return { "${called[0].module}": { ${names} } };\n}\n`;
   writeFileSync(file(".js"), `${lazy}${code}\n${imports}`);
   const declared = "export function __wbg_set_wasm(exports: object): void;\nexport function imports(): WebAssembly.Imports;\n";
   writeFileSync(file(".d.ts"), `${readFileSync(file(".d.ts"), "utf8")}\n${declared}`);
   rmSync(file("_bg.js"));
 }
 
-/** What a file of WebAssembly imports. */
-function imported(file) {
-  return WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(file)));
-}
-
 async function optimise(name) {
   const file = `${generated}/${name}_bg.wasm`;
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = instructions.map((set) => `--enable-${set}`);
-  // Large functions with a single caller stay functions: inside others they compress worse, by 6%.
+  // Large functions with a single caller stay functions: inlined they compress worse, by 6%.
   const size = ["-Oz", "--one-caller-inline-max-function-size=10"];
-  // These two passes save what compresses well: without them there is half a percent less under gzip.
-  size.push("--skip-pass=local-cse", "--skip-pass=merge-locals");
   await run("node", [tool, ...size, ...enabled, "--strip-debug", "--strip-target-features", file, "-o", file]);
-  // Functions that are alike stand together, which brings 3%.
-  await xtask("arrange", file, file);
 }
 
 async function embed(name, bytes) {
