@@ -1,8 +1,8 @@
 // What a machine needs besides Rust and Node.
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { incremental } from "./incremental.mjs";
-import { answer, Failure, root, run } from "./run.mjs";
+import { answer, environment, Failure, root, run } from "./run.mjs";
 
 /** Makes sure of everything that a build needs. */
 export async function setUp() {
@@ -19,7 +19,12 @@ function checkNode() {
 
 async function ensureRust() {
   const viaRustup = (await answer("rustup", ["--version"])) !== null;
-  if (viaRustup && (await answer("rustc", ["--version"])) === null) await run("rustup", ["toolchain", "install"]);
+  if (viaRustup && (await answer("rustc", ["--version"])) === null) {
+    // the pinned version may be there already under the name "stable": nothing to download
+    const [, pinned] = readFileSync(join(root, "rust-toolchain.toml"), "utf8").match(/channel = "(.*)"/);
+    if ((await answer("rustc", ["+stable", "--version"]))?.startsWith(`rustc ${pinned} `)) environment.RUSTUP_TOOLCHAIN = "stable";
+    else await run("rustup", ["toolchain", "install"]);
+  }
   if ((await answer("cargo", ["--version"])) === null) {
     throw new Failure("Rust is missing: install it from https://rustup.rs, open a new terminal and try again");
   }
