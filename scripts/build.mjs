@@ -71,22 +71,27 @@ async function bundle() {
   };
   await esbuild.build({ ...options, entryPoints: ["js/core/error.ts"] });
   for (const { entries, module } of bundles) {
-    const { bytes } = modules.find(({ name }) => name === module);
     await esbuild.build({
       ...options,
       entryPoints: entries.map((name) => `js/entries/${name}.ts`),
       splitting: entries.length > 1,
       chunkNames: "shared",
       define: { WASM_FILE: JSON.stringify(`${module}.wasm`) },
-      alias: {
-        "#error": "./dist/error.js",
-        "#wasm": `./js/generated/${module}.js`,
-        "#bytes": `./dist/${bytes}.js`,
-        "#module": `./dist/${module}.wasm`,
-      },
-      external: ["./dist/*"],
+      plugins: [{ name: "aliases", setup: ({ onResolve }) => onResolve({ filter: /^#/ }, ({ path }) => aliases(module)[path]) }],
     });
   }
+}
+
+/** Where the names with a `#` lead in an entry with this module of WebAssembly: to its generated code, and to files of their own. */
+function aliases(module) {
+  const { bytes } = modules.find(({ name }) => name === module);
+  const file = (name) => ({ path: `./${name}`, external: true });
+  return {
+    "#wasm": { path: join(root, `js/generated/${module}.js`) },
+    "#bytes": file(`${bytes}.js`),
+    "#module": file(`${module}.wasm`),
+    "#error": file("error.js"),
+  };
 }
 
 /** The declarations, without what is not exported. */
