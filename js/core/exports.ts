@@ -4,12 +4,12 @@
  * @module
  */
 export { WhitherError, type ErrorCode } from "#error";
+export type { Best } from "./best.js";
 export type { Gaussian } from "./gaussian.js";
 export { initSync } from "./loading/instance.js";
 export {
   Predictor,
   type ArrivalTime,
-  type Best,
   type ObserveOptions,
   type Position,
   type Remaining,

@@ -1,5 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { WhitherError } from "#error";
+import type { Best } from "./best.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./loading/instance.js";
 import { dispose, freed } from "./lifetime.js";
@@ -24,16 +25,6 @@ export interface ObserveOptions {
    * each axis, or a covariance matrix.
    */
   readonly noise?: number | Vector | Matrix | undefined;
-}
-
-/** The most probable destination. */
-export interface Best {
-  /** Its id. */
-  readonly id: string;
-  /** Its place in {@link Predictor.destinations}. */
-  readonly index: number;
-  /** Its probability. */
-  readonly probability: number;
 }
 
 /** When the object arrives: the posterior of the arrival time. */
@@ -167,11 +158,7 @@ export class Predictor {
 
   /** The most probable destination, or null before the first observation. */
   get best(): Best | null {
-    const engine = this.#live();
-    const index = engine.best();
-    if (index === undefined) return null;
-    const probabilities = this.#look(engine, engine.probabilities());
-    return { id: engine.id(index) as string, index, probability: probabilities[index] as number };
+    return this.#live().best() ?? null;
   }
 
   /**

@@ -7,6 +7,16 @@ use crate::value::{Node, Value};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+#[wasm_bindgen(raw_module = "../core/best.ts")]
+extern "C" {
+    /// The interface of `js/core/best.ts`.
+    #[derive(Debug)]
+    pub type Best;
+
+    /// One call out of WebAssembly, which makes all of it.
+    fn best(id: &str, index: usize, probability: f64) -> Best;
+}
+
 /// What a JavaScript `Predictor` holds.
 #[wasm_bindgen]
 #[derive(Debug)]
@@ -76,11 +86,6 @@ impl Engine {
         self.predictor.ids().map(ToOwned::to_owned).collect()
     }
 
-    /// The id of one destination.
-    pub fn id(&self, index: usize) -> Option<String> {
-        self.predictor.ids().nth(index).map(ToOwned::to_owned)
-    }
-
     /// Where the probabilities of the destinations are.
     pub fn probabilities(&mut self) -> *const f64 {
         self.predictor.probabilities().as_ptr()
@@ -96,9 +101,9 @@ impl Engine {
         self.predictor.none()
     }
 
-    /// The place of the most probable destination.
-    pub fn best(&mut self) -> Option<usize> {
-        self.predictor.best().map(|best| best.index)
+    /// The most probable destination; none before the first observation.
+    pub fn best(&mut self) -> Option<Best> {
+        self.predictor.best().map(|found| best(&found.id, found.index, found.probability))
     }
 
     /// Whether every arrival node has passed.
