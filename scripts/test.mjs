@@ -13,6 +13,7 @@ const wasmTarget = ["--target", "wasm32-unknown-unknown"];
 
 const parts = {
   async scripts() {
+    await check("node", ["node_modules/@biomejs/biome/bin/biome", "check", "--error-on-warnings"]);
     await tests("node", nodeTests("tests/scripts"));
   },
   async rust() {

@@ -1,7 +1,7 @@
 // The ghost, on a clock that the test moves.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
-import { hosted, serve } from "./support.mjs";
+import { hosted } from "./support.mjs";
 
 describe("ghost", () => {
   const site = hosted();

@@ -50,8 +50,8 @@ describe("recorded hands", { skip }, () => {
     // Set with room below what was measured when this was written: 45, 44, 665 ms, 8%.
     assert.ok(rightAtThreeQuarters >= 38, `${rightAtThreeQuarters} right at 75% of the time`);
     assert.ok(rightAtPress >= 38, `${rightAtPress} right at the press`);
-    assert.ok(Number.parseInt(shown[0]) >= 300, `median lead ${shown[0]}`);
-    assert.ok(Number.parseInt(shown[2]) <= 20, `early and wrong ${shown[2]}`);
+    assert.ok(Number.parseInt(shown[0], 10) >= 300, `median lead ${shown[0]}`);
+    assert.ok(Number.parseInt(shown[2], 10) <= 20, `early and wrong ${shown[2]}`);
     assert.deepEqual(sins, []);
     await close();
   });

@@ -16,7 +16,7 @@ const tooNew = {
   ImportExpression: () => true,
   MetaProperty: ({ meta }) => meta.name === "import",
   ImportAttribute: () => true,
-  AwaitExpression: (node, { functions }) => functions === 0,
+  AwaitExpression: (_node, { functions }) => functions === 0,
   ForOfStatement: (node, { functions }) => node.await && functions === 0,
   BinaryExpression: ({ operator, left }) => operator === "in" && left.type === "PrivateIdentifier",
   Literal: ({ regex }) => regex !== undefined && /[dv]/.test(regex.flags),

@@ -6,7 +6,7 @@
  */
 
 /** A `TextDecoder` for UTF-8. */
-export class TextDecoder {
+class LazyDecoder {
   #real: globalThis.TextDecoder | undefined;
 
   decode(bytes?: Uint8Array): string {
@@ -16,7 +16,7 @@ export class TextDecoder {
 }
 
 /** A `TextEncoder`. */
-export class TextEncoder {
+class LazyEncoder {
   #real: globalThis.TextEncoder | undefined;
 
   encodeInto(text: string, into: Uint8Array): { written: number } {
@@ -25,7 +25,7 @@ export class TextEncoder {
 }
 
 /** A `FinalizationRegistry`; where there is none, nothing is freed by itself. */
-export class FinalizationRegistry<T> {
+class LazyRegistry<T> {
   readonly #free: (held: T) => void;
   #real: globalThis.FinalizationRegistry<T> | undefined;
 
@@ -42,3 +42,5 @@ export class FinalizationRegistry<T> {
     this.#real?.unregister(object);
   }
 }
+
+export { LazyDecoder as TextDecoder, LazyEncoder as TextEncoder, LazyRegistry as FinalizationRegistry };
