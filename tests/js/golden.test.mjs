@@ -6,88 +6,84 @@ import { close, golden, scenarioOf } from "./support.mjs";
 
 await init();
 
-const papers = [
-  "brownian2d",
-  "ca2d",
-  "custom2d",
-  "cv2d-expiring-nodes",
-  "cv2d-horizon",
-  "cv2d-pixels",
-  "cv2d-position",
-  "cv2d-position-velocity",
-  "cv2d-same-timestamp",
-  "cv3d-position",
-  "erv2d",
-  "iou2d",
-  "mean-reverting2d",
-];
+/** How each kind of case in `tests/golden/index.json` is run: the tests of a case, by name. */
+const kinds = {
+  predictor({ observations, expected, ...given }, tolerances) {
+    const methods = Object.keys(expected.logLikelihoods).map((method) => [
+      method,
+      () => {
+        const predictor = new Predictor(scenarioOf(given, method));
+        observations.forEach(([time, ...position], k) => {
+          predictor.observe(time, position);
+          const [likelihoods, probabilities] = [expected.logLikelihoods[method][k], expected.probabilities[method][k]];
+          close(predictor.logLikelihoods(), likelihoods, tolerances.logLikelihoods, `log likelihoods after ${k}`);
+          close(predictor.probabilities(), probabilities, tolerances.probabilities, `probabilities after ${k}`);
+        });
+      },
+    ]);
+    const states = () => {
+      const predictor = new Predictor(scenarioOf(given, "pseudoObservation"));
+      for (const [time, ...position] of observations) predictor.observe(time, position);
+      const [first] = observations[0];
+      const [last] = observations.at(-1);
+      const { times, probabilities, mean } = predictor.arrival();
+      const arrival = { times: times.map((time) => time - first), probabilities, mean: mean - first };
+      isArrival(arrival, expected.arrival, tolerances.arrival);
+      isGaussian(predictor.state(), expected.state, tolerances.states, "state");
+      isGaussian(predictor.forecast(last + expected.forecast.after), expected.forecast, tolerances.states, "forecast");
+    };
+    return Object.fromEntries([...methods, ["arrival, state and forecast", states]]);
+  },
 
-for (const name of papers) {
-  const { observations, expected, ...given } = golden(name);
-
-  for (const method of Object.keys(expected.logLikelihoods)) {
-    test(`${name}: ${method}`, () => {
-      const predictor = new Predictor(scenarioOf(given, method));
+  pointing({ scenario, observations, expected }, tolerances) {
+    const movement = () => {
+      const predictor = new Predictor(scenario);
       observations.forEach(([time, ...position], k) => {
         predictor.observe(time, position);
-        close(predictor.logLikelihoods(), expected.logLikelihoods[method][k], 1e-8, `log likelihoods after ${k}`);
-        close(predictor.probabilities(), expected.probabilities[method][k], 1e-9, `probabilities after ${k}`);
+        close(predictor.probabilities(), expected.probabilities[k], tolerances.probabilities, `probabilities after ${k}`);
+        close([predictor.none], [expected.none[k]], tolerances.probabilities, `none after ${k}`);
       });
-    });
-  }
+      isArrival(predictor.arrival(), expected.arrival, tolerances.arrival);
+    };
+    return { movement };
+  },
 
-  test(`${name}: arrival, state and forecast`, () => {
-    const predictor = new Predictor(scenarioOf(given, "pseudoObservation"));
-    for (const [time, ...position] of observations) predictor.observe(time, position);
-    const [first] = observations[0];
-    const [last] = observations.at(-1);
-    const arrival = predictor.arrival();
-    close(arrival.times.map((time) => time - first), expected.arrival.times, 1e-7, "arrival times");
-    close(arrival.probabilities, expected.arrival.probabilities, 1e-7, "arrival");
-    close([arrival.mean - first], [expected.arrival.mean], 1e-7, "arrival mean");
-    isGaussian(predictor.state(), expected.state, "state");
-    isGaussian(predictor.forecast(last + expected.forecast.after), expected.forecast, "forecast");
-  });
-}
-
-for (const name of ["grid21", "none", "repeats", "ring12", "sizes40"]) {
-  test(`pointing-${name}`, () => {
-    const { scenario, observations, expected } = golden(`pointing-${name}`);
-    const predictor = new Predictor(scenario);
-    observations.forEach(([time, ...position], k) => {
-      predictor.observe(time, position);
-      close(predictor.probabilities(), expected.probabilities[k], 1e-9, `probabilities after ${k}`);
-      close([predictor.none], [expected.none[k]], 1e-9, `none after ${k}`);
-    });
-    const arrival = predictor.arrival();
-    close(arrival.times, expected.arrival.times, 1e-7, "arrival times");
-    close(arrival.probabilities, expected.arrival.probabilities, 1e-7, "arrival");
-    close([arrival.mean], [expected.arrival.mean], 1e-7, "arrival mean");
-  });
-}
-
-for (const name of ["correlated", "independent", "irregular", "waypoint"]) {
-  test(`cm-${name}`, () => {
-    const { name: _, note, measurements, expected, ...parameters } = golden(`cm-${name}`);
-    const sequence = new ConditionallyMarkovSequence(parameters);
-    measurements.forEach(({ step, position }, i) => {
-      sequence.measure(step, position);
-      assert.equal(expected.filtered[i].step, step);
-      isGaussian(sequence.state(step), expected.filtered[i], `state ${step}`);
-      isGaussian(sequence.destination(), expected.filtered[i].destination, `destination after ${step}`);
-    });
-    for (const predicted of expected.predicted) {
-      isGaussian(sequence.state(predicted.step), predicted, `predicted state ${predicted.step}`);
-    }
-    for (const model of expected.model ?? []) {
-      for (const part of ["previous", "destination", "covariance"]) {
-        close(sequence.model(model.step)[part], model[part].flat(), 1e-9, `${part} of step ${model.step}`);
+  sequence({ name, note, measurements, expected, ...parameters }, tolerances) {
+    const steps = () => {
+      const sequence = new ConditionallyMarkovSequence(parameters);
+      for (const model of expected.model ?? []) {
+        for (const part of ["previous", "destination", "covariance"]) {
+          close(sequence.model(model.step)[part], model[part].flat(), tolerances.model, `${part} of step ${model.step}`);
+        }
       }
-    }
-  });
+      assert.equal(measurements.length, expected.filtered.length);
+      measurements.forEach(({ step, position }, i) => {
+        const { destination, ...state } = expected.filtered[i];
+        sequence.measure(step, position);
+        isGaussian(sequence.state(step), state, tolerances.states, `state ${step}`);
+        isGaussian(sequence.destination(), destination, tolerances.states, `destination after ${step}`);
+      });
+      for (const predicted of expected.predicted) {
+        isGaussian(sequence.state(predicted.step), predicted, tolerances.states, `predicted state ${predicted.step}`);
+      }
+    };
+    return { steps };
+  },
+};
+
+for (const [kind, { tolerances, cases }] of Object.entries(golden("index"))) {
+  for (const name of cases) {
+    for (const [what, run] of Object.entries(kinds[kind](golden(name), tolerances))) test(`${name}: ${what}`, run);
+  }
 }
 
-function isGaussian(found, expected, what) {
-  close(found.mean, expected.mean, 1e-7, `${what}: mean`);
-  close(found.covariance, expected.covariance.flat(), 1e-7, `${what}: covariance`);
+function isArrival(found, expected, tolerance) {
+  close(found.times, expected.times, tolerance, "arrival times");
+  close(found.probabilities, expected.probabilities, tolerance, "arrival");
+  close([found.mean], [expected.mean], tolerance, "arrival mean");
+}
+
+function isGaussian(found, expected, tolerance, what) {
+  close(found.mean, expected.mean, tolerance, `${what}: mean`);
+  close(found.covariance, expected.covariance.flat(), tolerance, `${what}: covariance`);
 }

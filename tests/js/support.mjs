@@ -3,9 +3,35 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { WhitherError } from "whither";
 
+/** What a file in `tests/` holds. */
+export function read(path) {
+  return JSON.parse(readFileSync(new URL(`../${path}`, import.meta.url), "utf8"));
+}
+
 /** The golden case of this name. */
-export function golden(name) {
-  return JSON.parse(readFileSync(new URL(`../golden/${name}.json`, import.meta.url), "utf8"));
+export const golden = (name) => read(`golden/${name}.json`);
+
+/**
+ * A copy with changes: JSON pointers and what is put there, `null` for nothing. In what is put, `"NaN"`, `"Infinity"` and
+ * `"-Infinity"` are numbers, and `["*1002", x]` is a list of so many `x`. As `change` in tests/native/support.rs.
+ */
+export function changed(value, changes) {
+  if ("" in changes) return put(changes[""]);
+  const copy = put(value);
+  for (const [pointer, given] of Object.entries(changes)) {
+    const keys = pointer.split("/").slice(1);
+    const last = keys.pop();
+    keys.reduce((parent, key) => parent[key], copy)[last] = put(given);
+  }
+  return copy;
+}
+
+function put(given) {
+  if (typeof given === "string" && /^(NaN|-?Infinity)$/.test(given)) return Number(given);
+  if (given === null || typeof given !== "object") return given;
+  if (!Array.isArray(given)) return Object.fromEntries(Object.entries(given).map(([key, item]) => [key, put(item)]));
+  const [count, item] = given;
+  return /^\*\d+$/.test(count) ? new Array(Number(count.slice(1))).fill(put(item)) : given.map(put);
 }
 
 /** The scenario of a golden case, with another method. */

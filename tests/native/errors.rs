@@ -1,46 +1,173 @@
-//! Every bad input: its code, its path, its message; and that nothing has changed after it.
+//! Everything that is refused, by its code, path and message, and that nothing has changed after it: `tests/errors.json`.
+//!
+//! The table's bases are what is right: `from` is what something is built from, `before` the calls that are made on it, `after`
+//! one more. A row changes its base, or makes a call, and has the error that this makes. Rows marked `boundary` are about
+//! values that Rust's types rule out; they and all others are run in WebAssembly and through JavaScript.
 
-use crate::support::{change, predictor, value};
+use crate::support::{change, predictor, read, value};
 use serde_json::{Value as Json, json};
-use whither::{Code, Error, Predictor, Result, Scenario, Value};
+use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::{ConditionallyMarkovSequence, Error, Predictor, Result, Scenario, Value};
 
-/// A scenario that is right.
-fn scenario() -> Json {
-    json!({
-        "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 3 },
-        "observation": { "noise": 1.5 },
-        "initial": { "velocity": 5 },
-        "arrival": { "type": "uniform", "from": 1, "to": 4 },
-        "quadrature": { "rule": "simpson", "points": 5 },
-        "method": "pseudoObservation",
-        "none": 0.1,
-        "destinations": [
-            { "id": "a", "mean": [10, 0], "covariance": [[1, 0.1], [0.1, 1]], "prior": 2 },
-            { "id": "b", "center": [-10, 5], "size": [2, 3], "endVelocity": 4 }
-        ]
+const METHODS: [&str; 6] =
+    ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
+
+/// What is built from a base: something that takes calls, or nothing more than a scenario.
+trait Subject {
+    fn call(&mut self, name: &str, with: &Json) -> Result<()>;
+    /// All that a call could have changed.
+    fn everything(&mut self) -> Json;
+}
+
+impl Subject for Predictor {
+    fn call(&mut self, name: &str, with: &Json) -> Result<()> {
+        let id = with["id"].as_str();
+        match name {
+            "observe" => {
+                let (time, position) = (number(&with["time"]).unwrap(), list(&with["position"]));
+                let noise = with.get("noise").map(value);
+                match position.iter().copied().collect::<Option<Vec<f64>>>() {
+                    Some(position) if noise.is_none() => self.observe(time, &position),
+                    _ => self.observe_with(time, &position, noise.as_ref()),
+                }
+            }
+            "arrival" => self.arrival(id).map(drop),
+            "forecast" => self.forecast(number(&with["time"]).unwrap()).map(drop),
+            "path" => self.path(id.unwrap(), &full(&with["times"])).map(drop),
+            "addDestination" => self.add_destination(&value(&with["destination"])),
+            "updateDestination" => self.update_destination(id.unwrap(), &value(&with["destination"])),
+            "removeDestination" => self.remove_destination(id.unwrap()),
+            "setDestinations" => self.set_destinations(&value(&with["destinations"])),
+            "chosen" => self.chosen(id.unwrap()),
+            other => panic!("no call {other}"),
+        }
+    }
+
+    fn everything(&mut self) -> Json {
+        json!([self.snapshot(), self.probabilities()])
+    }
+}
+
+impl Subject for ConditionallyMarkovSequence {
+    fn call(&mut self, name: &str, with: &Json) -> Result<()> {
+        let step = || with["step"].as_u64().unwrap() as usize;
+        match name {
+            "measure" => self.measure(step(), &full(&with["position"])),
+            "state" => self.state(step()).map(drop),
+            "model" => self.model(step()).map(drop),
+            "sample" => self.sample(with["seed"].as_u64().unwrap(), with["count"].as_u64().unwrap() as usize).map(drop),
+            "isMarkov" => self.is_markov(with["tolerance"].as_f64().unwrap()).map(drop),
+            "isReciprocal" => self.is_reciprocal(with["tolerance"].as_f64().unwrap()).map(drop),
+            other => panic!("no call {other}"),
+        }
+    }
+
+    fn everything(&mut self) -> Json {
+        let states = (0..=self.steps()).map(|step| self.state(step).unwrap());
+        states.map(|state| json!([state.mean.as_slice(), state.covariance.as_slice()])).collect()
+    }
+}
+
+/// A number, also one that JSON has no number for; none for null.
+fn number(json: &Json) -> Option<f64> {
+    match value(json) {
+        Value::Number(x) => Some(x),
+        Value::Null => None,
+        other => panic!("no number but {other:?}"),
+    }
+}
+
+fn list(json: &Json) -> Vec<Option<f64>> {
+    json.as_array().unwrap().iter().map(number).collect()
+}
+
+fn full(json: &Json) -> Vec<f64> {
+    list(json).into_iter().map(Option::unwrap).collect()
+}
+
+fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
+    let given = value(from);
+    Ok(match base {
+        "scenario" | "pointing" => Box::new(Predictor::new(&Scenario::from_value(&given)?)?),
+        "snapshot" => Box::new(Predictor::restore(&given)?),
+        "sequence" => Box::new(ConditionallyMarkovSequence::new(&given)?),
+        "parameters" => Box::new(ConditionallyMarkovSequence::from_parameters(&given)?),
+        "pointer" => {
+            let target = |target: &Json| PointerTarget {
+                id: target["id"].as_str().unwrap().to_owned(),
+                x: target["x"].as_f64().unwrap(),
+                y: target["y"].as_f64().unwrap(),
+                width: target["width"].as_f64().unwrap(),
+                height: target["height"].as_f64().unwrap(),
+            };
+            let targets: Vec<PointerTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
+            let options = PointerOptions { none: from["options"]["none"].as_f64().unwrap() };
+            Box::new(Predictor::new(&pointer_scenario(&targets, options)?)?)
+        }
+        other => panic!("no base {other}"),
     })
+}
+
+/// The subject of a base after the calls that it begins with.
+fn begun(bases: &Json, base: &str, from: &Json) -> Box<dyn Subject> {
+    let mut subject = build(base, from).unwrap_or_else(|error| panic!("{base}: {error}"));
+    for call in bases[base]["before"].as_array().into_iter().flatten() {
+        subject.call(call["call"].as_str().unwrap(), &call["with"]).unwrap();
+    }
+    subject
 }
 
 fn shown(error: &Error) -> String {
     format!("{} | {} | {}", error.code().as_str(), error.path(), error.message())
 }
 
-/// `tests/errors.json`: what is changed in the scenario, and the error that this makes.
 #[test]
-fn every_scenario_that_is_wrong_is_refused_by_name() {
-    let rows: Vec<Json> = serde_json::from_str(include_str!("../errors.json")).unwrap();
-    assert!(rows.len() > 180);
-    assert!(Scenario::from_value(&value(&scenario())).is_ok());
+fn everything_wrong_is_refused_by_name_and_changes_nothing() {
+    let mut table = read("errors.json");
+    let (mut bases, rows) = (table["bases"].take(), table["rows"].take());
+    bases["snapshot"]["from"] = begun(&bases, "scenario", &bases["scenario"]["from"]).everything()[0].take();
+    for base in bases.as_object().unwrap().keys() {
+        begun(&bases, base, &bases[base]["from"]);
+    }
     let mut wrong = Vec::new();
-    for row in rows {
+    let mut run = 0;
+    for row in rows.as_array().unwrap() {
+        if row["boundary"] == true {
+            continue;
+        }
+        let base = row["base"].as_str().unwrap();
         let expected = ["code", "path", "message"].map(|key| row[key].as_str().unwrap()).join(" | ");
-        match Scenario::from_value(&value(&change(&scenario(), &row["change"]))) {
-            Err(error) if shown(&error) == expected => {}
-            Err(error) => wrong.push(format!("{}\n  expected {expected}\n  found    {}", row["change"], shown(&error))),
-            Ok(_) => wrong.push(format!("{}\n  expected {expected}\n  found    nothing wrong", row["change"])),
+        let mut check = |found: Result<()>, what: &str| {
+            let found = found.map_or_else(|error| shown(&error), |()| "nothing wrong".to_owned());
+            if found != expected {
+                wrong.push(format!("{row} {what}\n  found {found}"));
+            }
+            run += 1;
+        };
+        let from = change(&bases[base]["from"], row.get("change").unwrap_or(&json!({})));
+        let Some(name) = row["call"].as_str() else {
+            check(build(base, &from).map(drop), "");
+            continue;
+        };
+        // what no row changes is the same with every method
+        let methods: &[&str] = if base == "scenario" && row["change"].is_null() { &METHODS } else { &[""] };
+        for method in methods {
+            let from = match *method {
+                "" => from.clone(),
+                method => change(&from, &json!({ "/method": method, "/none": 0 })),
+            };
+            let (mut with, mut without) = (begun(&bases, base, &from), begun(&bases, base, &from));
+            check(with.call(name, &row["with"]), method);
+            assert_eq!(with.everything(), without.everything(), "{row} {method}");
+            let after = &bases[base]["after"];
+            for subject in [&mut with, &mut without] {
+                subject.call(after["call"].as_str().unwrap(), &after["with"]).unwrap();
+            }
+            assert_eq!(with.everything(), without.everything(), "{row} {method}");
         }
     }
     assert!(wrong.is_empty(), "{} rows:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(run > 450, "only {run} errors");
 }
 
 #[test]
@@ -50,12 +177,19 @@ fn a_key_that_is_there_twice_is_refused() {
     assert_eq!(error, "motion.noise: the key \"noise\" is there twice");
 }
 
+#[test]
+fn an_unknown_id_has_no_index() {
+    let error = predictor(&read("errors.json")["bases"]["scenario"]["from"]).index_of("c").unwrap_err();
+    assert_eq!(shown(&error), "unknown-id | id | no destination \"c\", there are \"a\", \"b\"");
+}
+
 /// Limits that no input can pass, whatever it costs to state them.
 #[test]
 fn what_would_exhaust_the_memory_is_too_large() {
+    let base = &read("errors.json")["bases"]["scenario"]["from"];
     let one = value(&json!({ "id": "?", "center": [1, 2], "size": 3 }));
     let with = |count: usize, changes: &Json| {
-        let Value::Map(mut entries) = value(&change(&scenario(), changes)) else { unreachable!() };
+        let Value::Map(mut entries) = value(&change(base, changes)) else { unreachable!() };
         let each = |i: usize| {
             let Value::Map(mut destination) = one.clone() else { unreachable!() };
             destination.retain(|(key, _)| key != "id");
@@ -82,266 +216,4 @@ fn what_would_exhaust_the_memory_is_too_large() {
          need 180180000 numbers with \"bridging\", the most is 134217728"
     );
     assert!(with(1_000_000, &json!({})).is_ok());
-}
-
-type Act = fn(&mut Predictor) -> Result<()>;
-
-/// Calls on a predictor in mid-movement at time 1 and the errors that they make.
-const CALLS: [(&str, Act, Code, &str, &str); 34] = [
-    (
-        "a time that is no number",
-        |p| p.observe(f64::NAN, &[0.0; 2]),
-        Code::NotFinite,
-        "time",
-        "must be a finite number, got NaN",
-    ),
-    (
-        "an infinite time",
-        |p| p.observe(f64::NEG_INFINITY, &[0.0; 2]),
-        Code::NotFinite,
-        "time",
-        "must be a finite number, got -Infinity",
-    ),
-    (
-        "a time before the last",
-        |p| p.observe(0.99, &[0.0; 2]),
-        Code::TimeNotIncreasing,
-        "time",
-        "must be at least the last observation's, 1, got 0.99",
-    ),
-    (
-        "a time beyond the limit",
-        |p| p.observe(2e12, &[0.0; 2]),
-        Code::OutOfRange,
-        "time",
-        "must be at most 1e12 seconds after the first observation's, 0.5, got 2000000000000",
-    ),
-    ("too few axes", |p| p.observe(1.1, &[0.0]), Code::WrongLength, "position", "must have 2 numbers, has 1"),
-    ("too many axes", |p| p.observe(1.1, &[0.0; 3]), Code::WrongLength, "position", "must have 2 numbers, has 3"),
-    ("no axes", |p| p.observe(1.1, &[]), Code::WrongLength, "position", "must have 2 numbers, has 0"),
-    (
-        "a position that is no number",
-        |p| p.observe(1.1, &[0.0, f64::NAN]),
-        Code::NotFinite,
-        "position[1]",
-        "must be a finite number, got NaN",
-    ),
-    (
-        "an infinite position",
-        |p| p.observe(1.1, &[f64::INFINITY, 0.0]),
-        Code::NotFinite,
-        "position[0]",
-        "must be a finite number, got Infinity",
-    ),
-    (
-        "a position beyond the limit",
-        |p| p.observe(1.1, &[1e51, 0.0]),
-        Code::OutOfRange,
-        "position[0]",
-        "must be from -1e50 to 1e50, got 1e51",
-    ),
-    (
-        "a noise that is no number",
-        |p| p.observe_with(1.1, &[Some(0.0); 2], Some(&Value::Number(f64::NAN))),
-        Code::NotFinite,
-        "noise",
-        "must be a finite number, got NaN",
-    ),
-    (
-        "no noise",
-        |p| p.observe_with(1.1, &[Some(0.0); 2], Some(&Value::Number(0.0))),
-        Code::OutOfRange,
-        "noise",
-        "must be greater than 0, got 0",
-    ),
-    (
-        "noise for another number of axes",
-        |p| p.observe_with(1.1, &[Some(0.0); 2], Some(&value(&json!([1, 2, 3])))),
-        Code::WrongLength,
-        "noise",
-        "must have 2 numbers, has 3, got [1, 2, 3]",
-    ),
-    (
-        "an indefinite noise",
-        |p| p.observe_with(1.1, &[Some(0.0); 2], Some(&value(&json!([[1, 2], [2, 1]])))),
-        Code::NotPositiveDefinite,
-        "noise",
-        "must be symmetric and positive definite, got [[1, 2], [2, 1]]",
-    ),
-    (
-        "a missing axis with NaN beside it",
-        |p| p.observe_with(1.1, &[None, Some(f64::NAN)], None),
-        Code::NotFinite,
-        "position[1]",
-        "must be a finite number, got NaN",
-    ),
-    (
-        "an unknown id asked for",
-        |p| p.index_of("c").map(drop),
-        Code::UnknownId,
-        "id",
-        "no destination \"c\", there are \"a\", \"b\"",
-    ),
-    (
-        "the arrival at an unknown id",
-        |p| p.arrival(Some("c")).map(drop),
-        Code::UnknownId,
-        "id",
-        "no destination \"c\", there are \"a\", \"b\"",
-    ),
-    (
-        "the path to an unknown id",
-        |p| p.path("c", &[2.0]).map(drop),
-        Code::UnknownId,
-        "id",
-        "no destination \"c\", there are \"a\", \"b\"",
-    ),
-    (
-        "a path into the past",
-        |p| p.path("a", &[2.0, 0.5]).map(drop),
-        Code::OutOfRange,
-        "times[1]",
-        "must be at least the last observation's time, 1, got 0.5",
-    ),
-    (
-        "a path to no time",
-        |p| p.path("a", &[2.0, f64::NAN]).map(drop),
-        Code::NotFinite,
-        "times[1]",
-        "must be a finite number, got NaN",
-    ),
-    (
-        "a forecast of the past",
-        |p| p.forecast(0.9).map(drop),
-        Code::OutOfRange,
-        "time",
-        "must be at least the last observation's time, 1, got 0.9",
-    ),
-    (
-        "a forecast for no time",
-        |p| p.forecast(f64::INFINITY).map(drop),
-        Code::NotFinite,
-        "time",
-        "must be a finite number, got Infinity",
-    ),
-    (
-        "a forecast beyond the limit",
-        |p| p.forecast(1e13).map(drop),
-        Code::OutOfRange,
-        "time",
-        "must be at most 1e12 seconds after the last observation, got 10000000000000",
-    ),
-    (
-        "an unknown id taken out",
-        |p| p.remove_destination("c"),
-        Code::UnknownId,
-        "id",
-        "no destination \"c\", there are \"a\", \"b\"",
-    ),
-    (
-        "an unknown id moved",
-        |p| p.update_destination("c", &value(&json!({ "center": [0, 0], "size": 1 }))),
-        Code::UnknownId,
-        "id",
-        "no destination \"c\", there are \"a\", \"b\"",
-    ),
-    (
-        "another id given",
-        |p| p.update_destination("a", &value(&json!({ "id": "c", "center": [0, 0], "size": 1 }))),
-        Code::OutOfRange,
-        "destination.id",
-        "must stay \"a\", got \"c\"",
-    ),
-    (
-        "a destination without a place",
-        |p| p.update_destination("a", &value(&json!({ "size": 1 }))),
-        Code::UnknownKey,
-        "destination.size",
-        "belongs to center; beside mean there is covariance, got 1",
-    ),
-    (
-        "a destination that is none",
-        |p| p.add_destination(&Value::Number(3.0)),
-        Code::WrongType,
-        "destination",
-        "must be an object, got 3",
-    ),
-    (
-        "an id that is taken",
-        |p| p.add_destination(&value(&json!({ "id": "b", "center": [0, 0], "size": 1 }))),
-        Code::DuplicateId,
-        "id",
-        "the id \"b\" is taken by destinations[1]",
-    ),
-    (
-        "an unknown key in a destination",
-        |p| p.add_destination(&value(&json!({ "id": "c", "center": [0, 0], "size": 1, "colour": 1 }))),
-        Code::UnknownKey,
-        "destination.colour",
-        "unknown key \"colour\", expected one of \"id\", \"mean\", \"covariance\", \"center\", \"size\", \"endVelocity\", \"prior\", \"arrival\"",
-    ),
-    (
-        "an empty list of destinations",
-        |p| p.set_destinations(&Value::List(Vec::new())),
-        Code::NoDestinations,
-        "destinations",
-        "must have at least one destination, has none",
-    ),
-    (
-        "no list of destinations",
-        |p| p.set_destinations(&Value::Null),
-        Code::WrongType,
-        "destinations",
-        "must be a list, got nothing",
-    ),
-    (
-        "one id twice",
-        |p| {
-            p.set_destinations(&value(
-                &json!([{ "id": "c", "center": [0, 0], "size": 1 }, { "id": "c", "center": [0, 0], "size": 1 }]),
-            ))
-        },
-        Code::DuplicateId,
-        "destinations[1].id",
-        "the id \"c\" is taken by destinations[0]",
-    ),
-    (
-        "no prior left",
-        |p| p.set_destinations(&value(&json!([{ "id": "c", "center": [0, 0], "size": 1, "prior": 0 }]))),
-        Code::OutOfRange,
-        "destinations",
-        "the priors must have a finite sum above 0, it is 0",
-    ),
-];
-
-/// For each method that takes the call, the same sequence with and without it.
-#[test]
-fn after_every_error_the_predictor_is_as_before() {
-    let methods =
-        ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
-    let mut wrong = Vec::new();
-    for method in methods {
-        let start = || {
-            let mut predictor = predictor(&change(&scenario(), &json!({ "/method": method, "/none": 0 })));
-            predictor.observe(0.5, &[0.0, 1.0]).unwrap();
-            predictor.observe(1.0, &[2.0, 1.0]).unwrap();
-            predictor
-        };
-        let mut without = start();
-        let before = without.snapshot();
-        without.observe(1.25, &[3.0, 0.5]).unwrap();
-        for (name, act, code, path, message) in CALLS {
-            let mut with = start();
-            let error = act(&mut with).expect_err(name);
-            let found = (error.code(), error.path(), error.message());
-            if found != (code, path, message) {
-                wrong.push(format!("{method} {name}: Code::{:?}, {:?}, {:?}", found.0, found.1, found.2));
-            }
-            assert_eq!(with.snapshot(), before, "{method} {name}");
-            with.observe(1.25, &[3.0, 0.5]).unwrap();
-            assert_eq!(with.snapshot(), without.snapshot(), "{method} {name}");
-            assert_eq!(with.probabilities(), without.probabilities(), "{method} {name}");
-        }
-    }
-    assert!(wrong.is_empty(), "{} calls:\n{}", wrong.len(), wrong.join("\n"));
 }

@@ -328,27 +328,6 @@ fn a_damaged_snapshot_is_refused() {
     }
 }
 
-#[test]
-fn what_is_no_snapshot_of_this_version_is_refused() {
-    let mut predictor = predictor(&scenario("algorithm1"));
-    follow(&mut predictor, &TRACK[..3]);
-    let snapshot: Json = serde_json::to_value(predictor.snapshot()).unwrap();
-    for (changes, message) in [
-        (json!({ "": null }), "snapshot: must be what snapshot() returned, got nothing"),
-        (json!({ "": 3 }), "snapshot: must be what snapshot() returned, got 3"),
-        (json!({ "": scenario("algorithm1") }), "snapshot: must be what snapshot() returned, got an object"),
-        (json!({ "/version": 2 }), "snapshot.version: must be 1, the version that this build writes, got 2"),
-        (json!({ "/version": null }), "snapshot.version: must be 1, the version that this build writes, got nothing"),
-        (json!({ "/body": null }), "snapshot: is truncated: it has no body or no seal"),
-        (json!({ "/seal": null }), "snapshot: is truncated: it has no body or no seal"),
-        (json!({ "/body/track": null }), "snapshot: is damaged: its contents do not match its seal"),
-        (json!({ "/body/scenario/none": 0.2 }), "snapshot: is damaged: its contents do not match its seal"),
-    ] {
-        let error = Predictor::restore(&value(&change(&snapshot, &changes))).unwrap_err();
-        assert_eq!((error.code(), error.to_string().as_str()), (Code::BadSnapshot, message));
-    }
-}
-
 /// After the last arrival time the probabilities stay; the state goes on; destinations may still change.
 #[test]
 fn after_every_arrival_time_the_probabilities_stay() {

@@ -1,14 +1,30 @@
-//! Reading golden cases and building scenarios from JSON.
+//! Reading golden cases and building scenarios from JSON; for the tests in WebAssembly too.
 
 use serde_json::{Value as Json, json};
-use std::path::Path;
-use whither::{Predictor, Scenario, Value};
+use std::collections::BTreeMap;
+use whither::{ConditionallyMarkovSequence, Predictor, Scenario, Value};
+
+/// What a file in `tests/` holds.
+pub fn read(path: &str) -> Json {
+    let path = format!("{}/tests/{path}", env!("CARGO_MANIFEST_DIR"));
+    #[cfg(not(target_arch = "wasm32"))]
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    #[cfg(target_arch = "wasm32")]
+    let text = crate::node::read_file(&path, "utf8");
+    serde_json::from_str(&text).unwrap()
+}
 
 /// The golden case of this name.
 pub fn golden(name: &str) -> Json {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.json"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    serde_json::from_str(&text).unwrap()
+    read(&format!("golden/{name}.json"))
+}
+
+/// The golden cases of one kind in `tests/golden/index.json`, each with the tolerances of its kind.
+pub fn cases(kind: &str) -> Vec<(String, BTreeMap<String, f64>)> {
+    let kind = &golden("index")[kind];
+    let tolerances: BTreeMap<String, f64> = serde_json::from_value(kind["tolerances"].clone()).unwrap();
+    let cases: Vec<String> = serde_json::from_value(kind["cases"].clone()).unwrap();
+    cases.into_iter().map(|name| (name, tolerances.clone())).collect()
 }
 
 /// The scenario of a golden case, with another method.
@@ -47,6 +63,16 @@ pub fn predictor(scenario: &Json) -> Predictor {
     Predictor::new(&Scenario::from_value(&value(scenario)).unwrap())
 }
 
+/// A sequence from JSON.
+pub fn sequence(configuration: &Json) -> ConditionallyMarkovSequence {
+    ConditionallyMarkovSequence::new(&value(configuration)).unwrap()
+}
+
+/// The lists of numbers in a list.
+pub fn rows(json: &Json) -> Vec<Vec<f64>> {
+    json.as_array().unwrap().iter().map(numbers).collect()
+}
+
 /// A list of numbers; null is minus infinity, as the golden cases write it.
 pub fn numbers(json: &Json) -> Vec<f64> {
     json.as_array().unwrap().iter().map(|x| x.as_f64().unwrap_or(f64::NEG_INFINITY)).collect()
@@ -57,6 +83,12 @@ pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let difference = |(f, e): (&f64, &f64)| if f == e { 0.0 } else { (f - e).abs() / (1.0 + e.abs()) };
     found.iter().zip(expected).map(difference).fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+}
+
+/// Asserts that two lists differ by no more than `tolerance`, relative to `1 + |expected|`.
+pub fn close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
+    let difference = relative(found, expected);
+    assert!(difference < tolerance, "{what}: off by {difference:e}");
 }
 
 /// A scenario with changes: JSON pointers and what is put there (null takes a key away). In what is put, `"NaN"`,
