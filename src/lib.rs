@@ -109,7 +109,8 @@ pub mod conditionally_markov;
 pub mod error;
 pub mod value;
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
-mod wasm;
+#[doc(hidden)]
+pub mod wasm;
 
 pub mod math;
 pub mod model;

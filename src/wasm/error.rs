@@ -1,11 +1,12 @@
-//! Errors: Rust makes the very `WhitherError` that JavaScript sees, so nothing is translated on the way.
+//! Errors: Rust makes the very `WhitherError` that JavaScript gets, so nothing is translated on the way.
 
 use crate::error::Error;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[wasm_bindgen(raw_module = "#error")]
+#[wasm_bindgen]
 extern "C" {
-    /// The class of `js/core/error.ts`, under the name that tsconfig.json gives it.
+    /// The class of that name where the generated code lies: `scripts/build-wasm.mjs` imports `#error` there, which is
+    /// `js/core/error.ts`; tests put a class of their own among the globals.
     #[derive(Debug)]
     pub type WhitherError;
 

@@ -15,10 +15,17 @@ mod predictor;
 #[cfg(feature = "wasm")]
 mod sequence;
 
-use error::WhitherError;
+pub use error::WhitherError;
+#[cfg(feature = "wasm")]
+pub use pointer::pointer_scenario;
+#[cfg(feature = "wasm")]
+pub use predictor::Engine;
+#[cfg(all(feature = "wasm", feature = "papers"))]
+pub use sequence::SequenceEngine;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-type Result<T> = std::result::Result<T, WhitherError>;
+/// What everything here that can fail returns.
+pub type Result<T> = std::result::Result<T, WhitherError>;
 
 #[wasm_bindgen]
 extern "C" {

@@ -76,7 +76,8 @@ impl Engine {
         self.predictor.sizes().to_vec()
     }
 
-    /// The number of destinations.
+    /// The number of destinations; never 0.
+    #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.predictor.len()
     }

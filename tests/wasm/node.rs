@@ -1,0 +1,57 @@
+//! What the tests take from Node, and what they give to JavaScript and get back.
+
+use js_sys::{Array, Float64Array, Function, JSON, Object, Reflect, WebAssembly};
+use serde_json::Value as Json;
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
+use whither::Value;
+
+#[wasm_bindgen(module = "node:fs")]
+extern "C" {
+    #[wasm_bindgen(js_name = readFileSync)]
+    pub fn read_file(path: &str, encoding: &str) -> String;
+}
+
+/// Puts the error class, which the package has from `js/error.ts`, among the globals.
+pub fn error_class() {
+    let class = "globalThis.WhitherError = class { constructor(...parts) { this.parts = parts; } };";
+    Function::new_no_args(class).call0(&JsValue::NULL).unwrap();
+}
+
+/// What an error was made from, code, path and message, with numbers as Rust prints them: 1e51 where JavaScript has 1e+51.
+pub fn parts(error: impl Into<JsValue>) -> String {
+    let parts: Array = Reflect::get(&error.into(), &"parts".into()).unwrap().unchecked_into();
+    String::from(parts.join(" | ")).replace("e+", "e")
+}
+
+/// A value as plain data.
+pub fn plain(json: &Json) -> JsValue {
+    fn plain(value: &Value) -> JsValue {
+        match value {
+            Value::Null => JsValue::NULL,
+            Value::Bool(truth) => JsValue::from_bool(*truth),
+            Value::Number(x) => JsValue::from_f64(*x),
+            Value::Text(text) => JsValue::from_str(text),
+            Value::List(items) => items.iter().map(plain).collect::<Array>().into(),
+            Value::Map(entries) => {
+                let object = Object::new();
+                for (key, item) in entries {
+                    Reflect::set(&object, &key.into(), &plain(item)).unwrap();
+                }
+                object.into()
+            }
+        }
+    }
+    plain(&crate::support::value(json))
+}
+
+/// Plain data as JSON.
+pub fn json(value: &JsValue) -> Json {
+    serde_json::from_str(&String::from(JSON::stringify(value).unwrap())).unwrap()
+}
+
+/// The numbers at a place in memory, as `js/predictor.ts` reads them.
+pub fn at(place: *const f64, count: usize) -> Vec<f64> {
+    let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
+    Float64Array::new_with_byte_offset_and_length(&memory.buffer(), place as u32, count as u32).to_vec()
+}
