@@ -10,6 +10,7 @@ use crate::math::gaussian::Gaussian;
 use crate::model::arrival::MAX_TIME;
 use crate::model::destination::Destinations;
 use crate::model::habits::Habits;
+use crate::model::observation::ObservationNoise;
 use crate::posterior::Posterior;
 use crate::posterior::arrival_time::Arrival;
 use crate::scenario::Scenario;
@@ -145,7 +146,13 @@ impl Predictor {
     pub fn observe_with(&mut self, time: f64, position: &[Option<f64>], noise: Option<&Value>) -> Result<()> {
         check_time("time", time)?;
         let model = &self.scenario.observation;
-        let noise = noise.map(|noise| model.read_noise(&Node::root(noise, "noise"))).transpose()?;
+        let noise = match noise {
+            None => None,
+            Some(noise) => {
+                let node = Node::root(noise, "noise");
+                Some(ObservationNoise::read(&node, model.axes())?.check(node.place(), model.axes())?)
+            }
+        };
         model.check(position)?;
         let observed = Observed { time, position, noise: noise.as_ref().unwrap_or_else(|| model.noise()) };
         let Some(track) = &mut self.track else {

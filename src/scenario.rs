@@ -22,9 +22,9 @@ use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
 use crate::model::endpoint::Endpoint;
 use crate::model::habits::Learning;
-use crate::model::initial::Initial;
-use crate::model::motion::Motion;
-use crate::model::observation::ObservationModel;
+use crate::model::initial::{Initial, InitialDensity};
+use crate::model::motion::{Motion, MotionModels};
+use crate::model::observation::{Observation, ObservationModel};
 use crate::pointing::parameters::Parameters;
 use crate::value::{Fields, Node, Value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -63,11 +63,11 @@ const MOST_NUMBERS: u64 = 1 << 27;
 #[derive(Clone, Debug)]
 pub struct Scenario {
     /// How the object moves.
-    pub motion: Motion,
+    pub motion: MotionModels,
     /// How it is observed.
     pub observation: ObservationModel,
     /// What is known of it before the first observation.
-    pub initial: Initial,
+    pub initial: InitialDensity,
     /// Which predictor.
     pub engine: Engine,
     /// The prior probability that the object goes to none of the destinations, at least 0 and less than 1.
@@ -113,10 +113,14 @@ impl Scenario {
     pub fn from_value(value: &Value) -> Result<Self> {
         let node = Node::root(value, "");
         let fields = node.fields(&KEYS)?;
-        let motion = Motion::read(&fields.required("motion")?)?;
+        let at = node.place();
+        let motion = Motion::read(&fields.required("motion")?)?.models(&at.key("motion"))?;
         let (d, s) = (motion.dimensions(), motion.states());
-        let observation = ObservationModel::read(&fields.required("observation")?, d, s)?;
-        let initial = Initial::read(fields.optional("initial"), d, s, &deviations_after_a_second(&motion))?;
+        let observation =
+            Observation::read(&fields.required("observation")?, d)?.model(&at.key("observation"), d, s)?;
+        let initial =
+            fields.optional("initial").map_or_else(|| Ok(Initial::default()), |node| Initial::read(&node, d))?;
+        let initial = initial.density(&at.key("initial"), d, s, &deviations_after_a_second(&motion))?;
         let engine = Engine::read(&fields, &motion, &observation, &initial)?;
         let none = fields.optional("none").map_or(Ok(0.0), |none| none.number())?;
         let learning = fields.optional("learning").map(|learning| Learning::read(&learning)).transpose()?;
@@ -236,7 +240,7 @@ impl Scenario {
     pub(crate) fn to_value_with(&self, destinations: &Destinations) -> Value {
         let mut entries = vec![
             ("motion".to_owned(), self.motion.to_value()),
-            ("observation".to_owned(), self.observation.to_value().clone()),
+            ("observation".to_owned(), self.observation.to_value()),
             ("none".to_owned(), Value::Number(self.none)),
             ("destinations".to_owned(), destinations.to_value()),
         ];
@@ -255,8 +259,9 @@ impl Scenario {
         if let Some(learning) = &self.learning {
             put("learning", learning.to_value());
         }
-        if *self.initial.to_value() != Value::Null {
-            put("initial", self.initial.to_value().clone());
+        match self.initial.to_value() {
+            Value::Null => {}
+            initial => put("initial", initial),
         }
         Value::Map(entries)
     }
@@ -272,7 +277,12 @@ impl Scenario {
 const POINTING: &str = "pointing";
 
 impl Engine {
-    fn read(fields: &Fields<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
+    fn read(
+        fields: &Fields<'_>,
+        motion: &MotionModels,
+        observation: &ObservationModel,
+        initial: &InitialDensity,
+    ) -> Result<Self> {
         let mut words = Method::NAMES.map(|(name, method)| (name, Some(method))).to_vec();
         words.push((POINTING, None));
         let method = fields.optional("method");
@@ -293,9 +303,17 @@ impl Engine {
                 return Err(Error::new(Code::UnknownKey, key, "is for the method \"pointing\" only"));
             }
         }
-        let arrival = Arrival::read(&fields.required("arrival")?)?;
-        let quadrature =
-            fields.optional("quadrature").map_or_else(|| Ok(Quadrature::default()), |q| Quadrature::read(&q))?;
+        let node = fields.required("arrival")?;
+        let arrival = Arrival::read(&node)?;
+        arrival.check(node.place())?;
+        let quadrature = match fields.optional("quadrature") {
+            None => Quadrature::default(),
+            Some(node) => {
+                let quadrature = Quadrature::read(&node)?;
+                quadrature.check(node.place())?;
+                quadrature
+            }
+        };
         Ok(Self::Papers { method, arrival, quadrature })
     }
 
@@ -330,7 +348,7 @@ fn check_for_pointing(destinations: &Destinations) -> Result<()> {
 }
 
 /// The deviation that a second of the noisiest candidate gives each component after the position: the default of `initial`.
-fn deviations_after_a_second(motion: &Motion) -> Vec<f64> {
+fn deviations_after_a_second(motion: &MotionModels) -> Vec<f64> {
     let mut deviations = vec![0.0; motion.states() - motion.dimensions()];
     for candidate in &motion.candidates {
         let noise = candidate.model.transition(1.0).noise;

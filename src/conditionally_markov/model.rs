@@ -13,7 +13,7 @@ use crate::math::gaussian::{Factor, Gaussian, propagate};
 use crate::model::arrival::MAX_TIME;
 use crate::model::bridge::Bridge;
 use crate::model::motion::{Motion, MotionModel};
-use crate::model::observation::{ObservationModel, read_covariance};
+use crate::model::observation::{Observation, ObservationModel, read_covariance};
 use crate::value::{Fields, Node, Value, number};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -139,7 +139,8 @@ impl Model {
         let size = pins.len() * states;
         let mean = DVector::from_vec(fields.required("pinnedMean")?.vector(Some(size))?);
         let covariance = read_covariance(&fields.required("pinnedCovariance")?, size)?;
-        let observation = ObservationModel::read(&fields.required("observation")?, dimensions, states)?;
+        let node = fields.required("observation")?;
+        let observation = Observation::read(&node, dimensions)?.model(node.place(), dimensions, states)?;
         let centre = mean.rows(size - states, dimensions).iter().copied().collect();
         let evolution = Evolution::Induced { motion, times, centre };
         let model = Self { pins, pinned: Gaussian { mean, covariance }, states, dimensions, observation, evolution };
@@ -170,7 +171,8 @@ impl Model {
             None if states.is_multiple_of(2) => states / 2,
             None => states,
         };
-        let observation = ObservationModel::read(&fields.required("observation")?, dimensions, states)?;
+        let node = fields.required("observation")?;
+        let observation = Observation::read(&node, dimensions)?.model(node.place(), dimensions, states)?;
         let steps = previous
             .into_iter()
             .zip(destination)
@@ -265,7 +267,7 @@ fn not_pinnable(path: &str) -> Error {
 }
 
 fn read_motion(node: &Node<'_>) -> Result<Arc<dyn MotionModel>> {
-    let motion = Motion::read(node)?;
+    let motion = Motion::read(node)?.models(node.place())?;
     if motion.speed_noise.is_some() {
         let message = "speedNoise makes the model nonlinear, a sequence needs a linear one";
         return Err(Error::new(Code::UnknownKey, format!("{}.speedNoise", node.path()), message));

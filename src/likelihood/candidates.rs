@@ -11,7 +11,7 @@ use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement, TimeUpdate};
 use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
-use crate::model::motion::{Motion, MotionModel, Transition};
+use crate::model::motion::{MotionModel, MotionModels, Transition};
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -94,7 +94,13 @@ pub struct Movement {
 impl Movement {
     /// A movement at its first observation.
     #[must_use]
-    pub fn begin(motion: &Motion, method: Method, destinations: &Destinations, plan: Plan, first: Gaussian) -> Self {
+    pub fn begin(
+        motion: &MotionModels,
+        method: Method,
+        destinations: &Destinations,
+        plan: Plan,
+        first: Gaussian,
+    ) -> Self {
         let columns = if motion.depends_on_destination() { destinations.len() } else { 1 };
         let worlds = motion.candidates.iter().map(|candidate| World {
             log_weight: candidate.weight.ln(),
@@ -290,7 +296,7 @@ impl Movement {
     /// Those of reading a value.
     pub fn load(
         node: &Node<'_>,
-        motion: &Motion,
+        motion: &MotionModels,
         method: Method,
         destinations: &Destinations,
         plan: Plan,

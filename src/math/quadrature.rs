@@ -3,19 +3,17 @@
 use super::cosine::cosine;
 use super::random::Random;
 use crate::error::{Code, Result};
-use crate::value::{Node, Value};
+use crate::value::{Node, Path, Value};
 
 /// The most nodes that a rule can have.
 pub const MAX_POINTS: usize = 1001;
 const DEFAULT_POINTS: usize = 15;
 
-/// A rule that turns an integral over the arrival time into a sum, Liang (6).
+/// How an integral over the arrival time becomes a sum, Liang (6): at most 1001 nodes, 15 of Simpson's rule by default.
 ///
 /// ```
-/// use whither::math::quadrature::Quadrature;
-/// let rule = Quadrature::Simpson { points: 3 }.rule();
-/// assert_eq!(rule.nodes, [0.0, 0.5, 1.0]);
-/// assert!((rule.weights[1] - 4.0 / 6.0).abs() < 1e-15);
+/// use whither::Quadrature;
+/// assert_eq!(Quadrature::default(), Quadrature::simpson(15));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Quadrature {
@@ -44,14 +42,6 @@ pub enum Quadrature {
 }
 
 /// Nodes in `[0, 1]` and weights that sum to one.
-///
-/// ```
-/// use whither::math::quadrature::Quadrature;
-/// let rule = Quadrature::GaussLegendre { points: 2 }.rule();
-/// // two nodes are enough for any cubic: the integral of x^3 is 1/4
-/// let sum: f64 = rule.nodes.iter().zip(&rule.weights).map(|(x, weight)| weight * x.powi(3)).sum();
-/// assert!((sum - 0.25).abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// Where the integrand is taken, ascending.
@@ -67,63 +57,85 @@ impl Default for Quadrature {
     }
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    Simpson,
-    Trapezoid,
-    GaussLegendre,
-    MonteCarlo,
-}
+/// A rule with so many points.
+type With = fn(usize) -> Quadrature;
 
-const KINDS: [(&str, Kind); 4] = [
-    ("simpson", Kind::Simpson),
-    ("trapezoid", Kind::Trapezoid),
-    ("gaussLegendre", Kind::GaussLegendre),
-    ("monteCarlo", Kind::MonteCarlo),
+/// Every `rule`, the least number of points of each, and the rule with so many of them.
+const RULES: [(&str, (usize, With)); 4] = [
+    ("simpson", (3, Quadrature::simpson)),
+    ("trapezoid", (2, Quadrature::trapezoid)),
+    ("gaussLegendre", (1, Quadrature::gauss_legendre)),
+    ("monteCarlo", (1, |points| Quadrature::monte_carlo(points, 0))),
 ];
 
 /// How many deviations the normal density is integrated over to either side; 6e-5 of it lies beyond.
 const NORMAL_RANGE: f64 = 4.0;
 
 impl Quadrature {
+    /// Simpson's rule: an odd number of nodes, at least 3.
+    #[must_use]
+    pub const fn simpson(points: usize) -> Self {
+        Self::Simpson { points }
+    }
+
+    /// The trapezoid rule: at least 2 nodes.
+    #[must_use]
+    pub const fn trapezoid(points: usize) -> Self {
+        Self::Trapezoid { points }
+    }
+
+    /// Gauss and Legendre's rule: at least 1 node.
+    #[must_use]
+    pub const fn gauss_legendre(points: usize) -> Self {
+        Self::GaussLegendre { points }
+    }
+
+    /// Random nodes, at least 1.
+    #[must_use]
+    pub const fn monte_carlo(points: usize, seed: u32) -> Self {
+        Self::MonteCarlo { points, seed }
+    }
+
     /// Reads `{ "rule"?, "points"?, "seed"? }`, `seed` for `monteCarlo` alone.
+    pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
+        let (least, with) = node.get("rule").map_or(Ok(RULES[0].1), |rule| rule.word(&RULES))?;
+        let keys: &[&str] = match with(least) {
+            Self::MonteCarlo { .. } => &["rule", "points", "seed"],
+            _ => &["rule", "points"],
+        };
+        let fields = node.fields(keys)?;
+        let points = fields.optional("points").map_or(Ok(DEFAULT_POINTS), |points| points.whole(least, MAX_POINTS))?;
+        Ok(match (with(points), fields.optional("seed")) {
+            (Self::MonteCarlo { points, .. }, Some(seed)) => {
+                Self::MonteCarlo { points, seed: seed.whole(0, u32::MAX as usize)? as u32 }
+            }
+            (rule, _) => rule,
+        })
+    }
+
+    /// Whether there is such a rule.
     ///
     /// # Errors
-    /// `unknown-key`, `wrong-type`, `not-finite`, `out-of-range` (Simpson's rule with an even count among them),
-    /// `too-large`.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
-        let kind = match node.get("rule") {
-            Some(node) => node.word(&KINDS)?,
-            None => Kind::Simpson,
-        };
-        let fields = node.fields(match kind {
-            Kind::MonteCarlo => &["rule", "points", "seed"],
-            _ => &["rule", "points"],
-        })?;
-        let points = |least: usize| match fields.optional("points") {
-            Some(node) => node.whole(least, MAX_POINTS),
-            None => Ok(DEFAULT_POINTS),
-        };
-        Ok(match kind {
-            Kind::Simpson => {
-                let points = points(3)?;
-                if points.is_multiple_of(2) {
-                    return Err(fields
-                        .required("points")?
-                        .error(Code::OutOfRange, "must be odd: Simpson's rule takes pairs of intervals"));
-                }
-                Self::Simpson { points }
-            }
-            Kind::Trapezoid => Self::Trapezoid { points: points(2)? },
-            Kind::GaussLegendre => Self::GaussLegendre { points: points(1)? },
-            Kind::MonteCarlo => Self::MonteCarlo {
-                points: points(1)?,
-                seed: match fields.optional("seed") {
-                    Some(node) => node.whole(0, u32::MAX as usize)? as u32,
-                    None => 0,
-                },
-            },
-        })
+    /// `out-of-range` (Simpson's rule with an even count among them), `too-large`.
+    pub(crate) fn check(&self, at: &Path<'_>) -> Result<()> {
+        let (_, (least, _)) = RULES[self.place()];
+        let (place, points) = (at.key("points"), self.points() as f64);
+        place.whole(points, least, MAX_POINTS)?;
+        if matches!(self, Self::Simpson { points } if points.is_multiple_of(2)) {
+            let must = "must be odd: Simpson's rule takes pairs of intervals";
+            return Err(place.error(Code::OutOfRange, must, points));
+        }
+        Ok(())
+    }
+
+    /// The place in [`RULES`].
+    const fn place(&self) -> usize {
+        match self {
+            Self::Simpson { .. } => 0,
+            Self::Trapezoid { .. } => 1,
+            Self::GaussLegendre { .. } => 2,
+            Self::MonteCarlo { .. } => 3,
+        }
     }
 
     /// How many nodes.
@@ -140,12 +152,7 @@ impl Quadrature {
     /// The rule as a scenario writes it.
     #[must_use]
     pub fn to_value(&self) -> Value {
-        let rule = match self {
-            Self::Simpson { .. } => "simpson",
-            Self::Trapezoid { .. } => "trapezoid",
-            Self::GaussLegendre { .. } => "gaussLegendre",
-            Self::MonteCarlo { .. } => "monteCarlo",
-        };
+        let (rule, _) = RULES[self.place()];
         let mut entries =
             vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(self.points() as f64))];
         if let Self::MonteCarlo { seed, .. } = self {
@@ -247,7 +254,11 @@ mod tests {
     use super::*;
 
     fn read(json: &str) -> Result<Quadrature> {
-        Quadrature::read(&Node::root(&serde_json::from_str(json).unwrap(), "quadrature"))
+        let value: Value = serde_json::from_str(json).unwrap();
+        let node = Node::root(&value, "quadrature");
+        let quadrature = Quadrature::read(&node)?;
+        quadrature.check(node.place())?;
+        Ok(quadrature)
     }
 
     fn integral(rule: &Rule, f: impl Fn(f64) -> f64) -> f64 {

@@ -6,20 +6,12 @@
 
 use crate::error::{Code, Result};
 use crate::math::quadrature::{MAX_POINTS, Quadrature};
-use crate::value::{Node, Value, number};
+use crate::value::{Node, Path, Value, number};
 
 /// The longest time that a prior can name, in seconds; it keeps every power of a step finite.
 pub const MAX_TIME: f64 = 1e12;
 
 /// Arrival times and the logs of their prior probabilities.
-///
-/// ```
-/// use whither::{math::quadrature::Quadrature, model::arrival::Arrival};
-/// let prior = Arrival::Discrete { times: vec![2.0, 5.0], weights: vec![1.0, 3.0] };
-/// let grid = prior.grid(&Quadrature::default(), 0.0, 1.0);
-/// assert_eq!(grid.times, [2.0, 5.0]);
-/// assert!((grid.log_weights[0].exp() - 0.25).abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// `T - t_1`, or the time to go for `horizon`, in seconds; greater than zero.
@@ -28,14 +20,16 @@ pub struct Grid {
     pub log_weights: Vec<f64>,
 }
 
-/// A prior on the arrival time.
+/// The prior of the arrival time `T`, in seconds; Liang (6), Ardeshiri (17).
+///
+/// All but `Horizon` are priors on `T - t_1`, the time from the first observation; `Horizon` is one on `T - t_k`, the time to go, at
+/// every observation (not for the methods that accumulate evidence: `algorithm1`, `algorithm2`, `bridging`). Times are above 0 and at
+/// most 1e12.
 ///
 /// ```
-/// use whither::{math::quadrature::Quadrature, model::arrival::Arrival};
-/// let prior = Arrival::Uniform { from: 1.0, to: 3.0 };
-/// let grid = prior.grid(&Quadrature::Trapezoid { points: 3 }, 0.0, 1.0);
-/// assert_eq!(grid.times, [1.0, 2.0, 3.0]);
-/// assert!((grid.log_weights[1] - 0.5f64.ln()).abs() < 1e-15);
+/// use whither::Arrival;
+/// assert_eq!(Arrival::horizon(0.05, 0.5), Arrival::Horizon { from: 0.05, to: 0.5 });
+/// assert_eq!(Arrival::discrete([2.0, 5.0]), Arrival::Discrete { times: vec![2.0, 5.0], weights: vec![1.0, 1.0] });
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arrival {
@@ -79,21 +73,33 @@ pub enum Arrival {
     },
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    Uniform,
-    Discrete,
-    LogNormal,
-    Fitts,
-    Horizon,
-}
+type Read = fn(&Node<'_>) -> Result<Arrival>;
 
-const KINDS: [(&str, Kind); 5] = [
-    ("uniform", Kind::Uniform),
-    ("discrete", Kind::Discrete),
-    ("logNormal", Kind::LogNormal),
-    ("fitts", Kind::Fitts),
-    ("horizon", Kind::Horizon),
+/// Every `type` and how it is read.
+const TYPES: [(&str, Read); 5] = [
+    ("uniform", |node| {
+        let fields = node.fields(&["type", "from", "to"])?;
+        Ok(Arrival::Uniform { from: fields.float("from")?, to: fields.float("to")? })
+    }),
+    ("discrete", |node| {
+        let fields = node.fields(&["type", "times", "weights"])?;
+        let times = fields.required("times")?.floats()?;
+        let weights = fields.optional("weights").map_or_else(|| Ok(vec![1.0; times.len()]), |list| list.floats())?;
+        Ok(Arrival::Discrete { times, weights })
+    }),
+    ("logNormal", |node| {
+        let fields = node.fields(&["type", "median", "spread"])?;
+        Ok(Arrival::LogNormal { median: fields.float("median")?, spread: fields.float("spread")? })
+    }),
+    ("fitts", |node| {
+        let fields = node.fields(&["type", "intercept", "slope", "spread"])?;
+        let (intercept, slope) = (fields.float("intercept")?, fields.float("slope")?);
+        Ok(Arrival::Fitts { intercept, slope, spread: fields.float("spread")? })
+    }),
+    ("horizon", |node| {
+        let fields = node.fields(&["type", "from", "to"])?;
+        Ok(Arrival::Horizon { from: fields.float("from")?, to: fields.float("to")? })
+    }),
 ];
 
 /// The largest deviation of `ln T`; one such deviation is a factor of 22 000.
@@ -102,34 +108,69 @@ const MAX_SPREAD: f64 = 10.0;
 const MAX_DIFFICULTY: f64 = 64.0;
 
 impl Arrival {
+    /// Evenly between two times from the first observation, in seconds.
+    #[must_use]
+    pub const fn uniform(from: f64, to: f64) -> Self {
+        Self::Uniform { from, to }
+    }
+
+    /// Some times from the first observation, in seconds, equally likely.
+    pub fn discrete(times: impl Into<Vec<f64>>) -> Self {
+        let times = times.into();
+        Self::Discrete { weights: vec![1.0; times.len()], times }
+    }
+
+    /// Log-normal from the first observation: the median in seconds and the deviation of `ln T`.
+    #[must_use]
+    pub const fn log_normal(median: f64, spread: f64) -> Self {
+        Self::LogNormal { median, spread }
+    }
+
+    /// Log-normal about Fitts's law.
+    #[must_use]
+    pub const fn fitts(intercept: f64, slope: f64, spread: f64) -> Self {
+        Self::Fitts { intercept, slope, spread }
+    }
+
+    /// Evenly between two times to go, in seconds, at every step.
+    #[must_use]
+    pub const fn horizon(from: f64, to: f64) -> Self {
+        Self::Horizon { from, to }
+    }
+
     /// Reads `{ "type", ... }`.
+    pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
+        node.tag("type", &TYPES)?(node)
+    }
+
+    /// Whether this is a prior.
     ///
     /// # Errors
-    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
-        Ok(match node.tag("type", &KINDS)? {
-            Kind::Uniform => {
-                let (from, to) = interval(node)?;
-                Self::Uniform { from, to }
+    /// `wrong-length`, `not-finite`, `out-of-range`, `too-large`.
+    pub(crate) fn check(&self, at: &Path<'_>) -> Result<()> {
+        match self {
+            Self::Uniform { from, to } | Self::Horizon { from, to } => {
+                let (from, latest) = (time(&at.key("from"), *from)?, at.key("to"));
+                if time(&latest, *to)? <= from {
+                    let must = format!("must be greater than \"from\", which is {}", number(from));
+                    return Err(latest.error(Code::OutOfRange, &must, *to));
+                }
+                Ok(())
             }
-            Kind::Horizon => {
-                let (from, to) = interval(node)?;
-                Self::Horizon { from, to }
+            Self::Discrete { times, weights } => check_discrete(at, times, weights),
+            Self::LogNormal { median, spread } => {
+                time(&at.key("median"), *median)?;
+                check_spread(&at.key("spread"), *spread)
             }
-            Kind::Discrete => discrete(node)?,
-            Kind::LogNormal => {
-                let fields = node.fields(&["type", "median", "spread"])?;
-                let median = time(&fields.required("median")?)?;
-                Self::LogNormal { median, spread: spread(&fields.required("spread")?)? }
+            Self::Fitts { intercept, slope, spread } => {
+                time(&at.key("intercept"), *intercept)?;
+                let place = at.key("slope");
+                if place.not_negative(*slope)? > 0.0 {
+                    time(&place, *slope)?;
+                }
+                check_spread(&at.key("spread"), *spread)
             }
-            Kind::Fitts => {
-                let fields = node.fields(&["type", "intercept", "slope", "spread"])?;
-                let intercept = time(&fields.required("intercept")?)?;
-                let slope = fields.required("slope")?;
-                let slope = if slope.not_negative()? == 0.0 { 0.0 } else { time(&slope)? };
-                Self::Fitts { intercept, slope, spread: spread(&fields.required("spread")?)? }
-            }
-        })
+        }
     }
 
     /// The prior as a scenario writes it.
@@ -210,66 +251,42 @@ impl Grid {
     }
 }
 
-fn interval(node: &Node<'_>) -> Result<(f64, f64)> {
-    let fields = node.fields(&["type", "from", "to"])?;
-    let from = time(&fields.required("from")?)?;
-    let latest = fields.required("to")?;
-    let to = time(&latest)?;
-    if to > from {
-        Ok((from, to))
-    } else {
-        let must = format!("must be greater than \"from\", which is {}", number(from));
-        Err(latest.error(Code::OutOfRange, &must))
-    }
-}
-
 fn interval_value(kind: &str, from: f64, to: f64) -> Value {
     Value::map([("type", Value::text(kind)), ("from", Value::Number(from)), ("to", Value::Number(to))])
 }
 
-fn discrete(node: &Node<'_>) -> Result<Arrival> {
-    let fields = node.fields(&["type", "times", "weights"])?;
-    let list = fields.required("times")?;
-    let count = list.items()?.len();
+fn check_discrete(at: &Path<'_>, times: &[f64], weights: &[f64]) -> Result<()> {
+    let (place, count) = (at.key("times"), times.len());
     if count == 0 {
-        return Err(list.error(Code::WrongLength, "must have at least one time"));
+        return Err(place.error(Code::WrongLength, "must have at least one time", times));
     }
     if count > MAX_POINTS {
-        return Err(list.error(Code::TooLarge, &format!("must have at most {MAX_POINTS} times, has {count}")));
+        let must = format!("must have at most {MAX_POINTS} times, has {count}");
+        return Err(place.error(Code::TooLarge, &must, times));
     }
-    let times = list.numbers(time)?;
-    let weights = match fields.optional("weights") {
-        None => vec![1.0; count],
-        Some(list) => {
-            list.vector(Some(count))?;
-            let weights = list.numbers(|item| item.not_negative())?;
-            let sum: f64 = weights.iter().sum();
-            if !(sum > 0.0 && sum.is_finite()) {
-                return Err(list.error(Code::OutOfRange, "must have a finite sum greater than 0"));
-            }
-            weights
-        }
-    };
-    Ok(Arrival::Discrete { times, weights })
+    place.each(times, time)?;
+    let place = at.key("weights");
+    let sum: f64 = place.vector(weights, count, |at, x| at.not_negative(x))?.iter().sum();
+    if sum > 0.0 && sum.is_finite() {
+        return Ok(());
+    }
+    Err(place.error(Code::OutOfRange, "must have a finite sum greater than 0", weights))
 }
 
-fn spread(node: &Node<'_>) -> Result<f64> {
-    let spread = node.number()?;
-    if spread > 0.0 && spread <= MAX_SPREAD {
-        Ok(spread)
-    } else {
-        Err(node.error(Code::OutOfRange, &format!("must be greater than 0 and at most {}", number(MAX_SPREAD))))
+fn check_spread(at: &Path<'_>, spread: f64) -> Result<()> {
+    if at.number(spread)? > 0.0 && spread <= MAX_SPREAD {
+        return Ok(());
     }
+    let must = format!("must be greater than 0 and at most {}", number(MAX_SPREAD));
+    Err(at.error(Code::OutOfRange, &must, spread))
 }
 
 /// A time in seconds, greater than zero and at most [`MAX_TIME`].
-fn time(node: &Node<'_>) -> Result<f64> {
-    let t = node.number()?;
-    if t > 0.0 && t <= MAX_TIME {
-        Ok(t)
-    } else {
-        Err(node.error(Code::OutOfRange, "must be greater than 0 and at most 1e12 seconds"))
+fn time(at: &Path<'_>, t: f64) -> Result<f64> {
+    if at.number(t)? > 0.0 && t <= MAX_TIME {
+        return Ok(t);
     }
+    Err(at.error(Code::OutOfRange, "must be greater than 0 and at most 1e12 seconds", t))
 }
 
 #[cfg(test)]
@@ -292,7 +309,11 @@ mod tests {
     ];
 
     fn read(json: &str) -> Result<Arrival> {
-        Arrival::read(&Node::root(&serde_json::from_str(json).unwrap(), "arrival"))
+        let value: Value = serde_json::from_str(json).unwrap();
+        let node = Node::root(&value, "arrival");
+        let arrival = Arrival::read(&node)?;
+        arrival.check(node.place())?;
+        Ok(arrival)
     }
 
     fn mean(grid: &Grid, f: impl Fn(f64) -> f64) -> f64 {

@@ -59,7 +59,11 @@ impl Destination {
         let fields = node.fields(&KEYS)?;
         let id = fields.required("id")?.text()?.to_owned();
         let prior = fields.optional("prior").map_or(Ok(1.0), |prior| prior.not_negative())?;
-        let arrival = fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?;
+        let arrival = fields.optional("arrival").map(|node| {
+            let arrival = Arrival::read(&node)?;
+            arrival.check(node.place()).map(|()| arrival)
+        });
+        let arrival = arrival.transpose()?;
         let Some(center) = fields.optional("center") else {
             for key in ["size", "endVelocity"] {
                 if let Some(extra) = fields.optional(key) {

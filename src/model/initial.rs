@@ -1,29 +1,147 @@
 //! The density of the state at the first observation, before that observation.
 
-use super::observation::{ObservationModel, read_covariance};
+use super::matrix::Matrix;
+use super::observation::ObservationModel;
+use super::per_axis::PerAxis;
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Gaussian, condition};
 use crate::math::kalman::Measurement;
-use crate::value::{Node, Value};
+use crate::value::{Node, Path, Value};
 use nalgebra::{DMatrix, DVector};
 
-/// What is known of `x_1` before `y_1`.
+/// What is known of the state `x_1` before the first observation `y_1` is taken in.
+///
+/// By default it is flat in position, and the other components have zero mean and the deviation that a second of the motion
+/// model's noise gives them.
 ///
 /// ```
-/// use whither::{Value, model::{initial::Initial, observation::ObservationModel}, value::Node};
-/// let value: Value = serde_json::from_str(r#"[{ "noise": 2 }, { "velocity": 5 }]"#).unwrap();
-/// let Value::List(parts) = &value else { panic!() };
-/// let model = ObservationModel::read(&Node::root(&parts[0], "observation"), 1, 2).unwrap();
-/// let initial = Initial::read(Some(Node::root(&parts[1], "initial")), 1, 2, &[0.0]).unwrap();
-/// let first = initial.posterior(&model, &model.measurement(&[Some(7.0)], None).unwrap()).unwrap();
-/// assert_eq!(first.mean.as_slice(), [7.0, 0.0]); // where it was seen, at rest
-/// assert_eq!(first.covariance.as_slice(), [4.0, 0.0, 0.0, 25.0]);
+/// use whither::Initial;
+/// let fast = Initial::velocity(200.0); // flat in position; the velocity is N(0, 200^2) on each axis
+/// let known = Initial::gaussian([0.0, 0.0], [[100.0, 0.0], [0.0, 4.0]]);
+/// # let _ = (fast, known);
 /// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Initial {
+    /// Flat in position, with zero mean and a deviation for the other components.
+    Flat {
+        /// The deviation of the velocity.
+        velocity: Option<PerAxis>,
+        /// The deviation of the acceleration.
+        acceleration: Option<PerAxis>,
+    },
+    /// A Gaussian.
+    Gaussian {
+        /// `s` numbers.
+        mean: Vec<f64>,
+        /// `s` by `s`.
+        covariance: Matrix,
+        /// Whether the first observation counts as evidence, `p(y_1 | D_i, T)` in Liang (5): the likelihoods are then those of
+        /// `y_1:k`. By default they are those of `y_2:k` given `y_1`: where a movement begins is mostly chance.
+        evidence: bool,
+    },
+}
+
+impl Default for Initial {
+    fn default() -> Self {
+        Self::Flat { velocity: None, acceleration: None }
+    }
+}
+
+impl Initial {
+    /// Flat in position; the velocity has zero mean and this deviation.
+    pub fn velocity(deviation: impl Into<PerAxis>) -> Self {
+        Self::Flat { velocity: Some(deviation.into()), acceleration: None }
+    }
+
+    /// A Gaussian; the first observation does not count as evidence.
+    pub fn gaussian(mean: impl Into<Vec<f64>>, covariance: impl Into<Matrix>) -> Self {
+        Self::Gaussian { mean: mean.into(), covariance: covariance.into(), evidence: false }
+    }
+
+    /// Reads `{ mean, covariance, evidence? }`, or `{ velocity?, acceleration? }`.
+    pub(crate) fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
+        let fields = node.fields(&["mean", "covariance", "evidence", "velocity", "acceleration"])?;
+        let evidence = fields.optional("evidence").map_or(Ok(false), |evidence| evidence.boolean())?;
+        if fields.optional("mean").is_some() || fields.optional("covariance").is_some() {
+            for key in ["velocity", "acceleration"] {
+                if let Some(extra) = fields.optional(key) {
+                    return Err(extra.error(Code::UnknownKey, "has no place beside mean and covariance"));
+                }
+            }
+            let mean = fields.required("mean")?.floats()?;
+            return Ok(Self::Gaussian { mean, covariance: Matrix::read(&fields.required("covariance")?)?, evidence });
+        }
+        if evidence && let Some(field) = fields.optional("evidence") {
+            let must =
+                "needs mean and covariance: of a density that is flat in position the first observation is no evidence";
+            return Err(field.error(Code::OutOfRange, must));
+        }
+        let deviation = |key| fields.optional(key).map(|field| PerAxis::read(&field, dimensions)).transpose();
+        Ok(Self::Flat { velocity: deviation("velocity")?, acceleration: deviation("acceleration")? })
+    }
+
+    fn to_value(&self) -> Value {
+        match self {
+            Self::Flat { velocity: None, acceleration: None } => Value::Null,
+            Self::Flat { velocity, acceleration } => Value::some(vec![
+                ("velocity", velocity.as_ref().map(PerAxis::to_value)),
+                ("acceleration", acceleration.as_ref().map(PerAxis::to_value)),
+            ]),
+            Self::Gaussian { mean, covariance, evidence } => Value::some(vec![
+                ("mean", Some(Value::numbers(mean))),
+                ("covariance", Some(covariance.into())),
+                ("evidence", evidence.then_some(Value::Bool(true))),
+            ]),
+        }
+    }
+
+    /// The density for a motion model of `states` components in `dimensions` axes. A deviation that is left out is taken from
+    /// `defaults`, one for each component after the position; where that is zero too it is missing.
+    ///
+    /// # Errors
+    /// `missing-key`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
+    pub(crate) fn density(
+        &self,
+        at: &Path<'_>,
+        dimensions: usize,
+        states: usize,
+        defaults: &[f64],
+    ) -> Result<InitialDensity> {
+        let prior = match self {
+            Self::Gaussian { mean, covariance, .. } => {
+                let mean = at.key("mean").vector(mean, states, |at, x| at.number(x))?;
+                let covariance = covariance.covariance(&at.key("covariance"), states)?;
+                Prior::Given(Gaussian { mean: DVector::from_vec(mean), covariance })
+            }
+            Self::Flat { velocity, acceleration } => {
+                let mut deviations = defaults.to_vec();
+                for (order, key, given) in [(1, "velocity", velocity), (2, "acceleration", acceleration)] {
+                    let Some(given) = given else { continue };
+                    let place = at.key(key);
+                    if states < (order + 1) * dimensions {
+                        let must = format!("the motion model has no {key}");
+                        return Err(place.error(Code::OutOfRange, &must, given.to_value()));
+                    }
+                    let values = given.check(&place, dimensions, |at, x| at.positive(x))?;
+                    deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
+                }
+                if !deviations.iter().all(|x| x.is_finite() && *x > 0.0) {
+                    let message = "missing mean and covariance: not every component after the position has noise to take \
+                                   a deviation from";
+                    return Err(Error::new(Code::MissingKey, at.to_string(), message));
+                }
+                Prior::Flat(deviations)
+            }
+        };
+        Ok(InitialDensity { prior, description: self.clone() })
+    }
+}
+
+/// `p(x_1)`.
 #[derive(Clone, Debug)]
-pub struct Initial {
+pub struct InitialDensity {
     prior: Prior,
-    evidence: bool,
-    value: Value,
+    description: Initial,
 }
 
 #[derive(Clone, Debug)]
@@ -34,53 +152,11 @@ enum Prior {
     Flat(Vec<f64>),
 }
 
-impl Initial {
-    /// Reads `{ mean, covariance, evidence? }`, or `{ velocity?, acceleration? }` for a density that is flat in position. A deviation
-    /// that is left out is taken from `defaults`, one for each component after the position; where that is zero too it is
-    /// missing.
-    ///
-    /// # Errors
-    /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
-    pub fn read(node: Option<Node<'_>>, dimensions: usize, states: usize, defaults: &[f64]) -> Result<Self> {
-        let Some(node) = node else {
-            check(defaults, "initial")?;
-            return Ok(Self { prior: Prior::Flat(defaults.to_vec()), evidence: false, value: Value::Null });
-        };
-        let fields = node.fields(&["mean", "covariance", "evidence", "velocity", "acceleration"])?;
-        let evidence = fields.optional("evidence").map_or(Ok(false), |evidence| evidence.boolean())?;
-        if fields.optional("mean").is_some() || fields.optional("covariance").is_some() {
-            for key in ["velocity", "acceleration"] {
-                if let Some(extra) = fields.optional(key) {
-                    return Err(extra.error(Code::UnknownKey, "has no place beside mean and covariance"));
-                }
-            }
-            let mean = DVector::from_vec(fields.required("mean")?.vector(Some(states))?);
-            let covariance = read_covariance(&fields.required("covariance")?, states)?;
-            let prior = Prior::Given(Gaussian { mean, covariance });
-            return Ok(Self { prior, evidence, value: node.value().clone() });
-        }
-        if evidence && let Some(field) = fields.optional("evidence") {
-            let must =
-                "needs mean and covariance: of a density that is flat in position the first observation is no evidence";
-            return Err(field.error(Code::OutOfRange, must));
-        }
-        let mut deviations = defaults.to_vec();
-        for (order, key) in [(1, "velocity"), (2, "acceleration")] {
-            let Some(field) = fields.optional(key) else { continue };
-            if states < (order + 1) * dimensions {
-                return Err(field.error(Code::OutOfRange, &format!("the motion model has no {key}")));
-            }
-            let values = field.for_each_axis(dimensions, |n| n.positive())?;
-            deviations[(order - 1) * dimensions..order * dimensions].copy_from_slice(&values);
-        }
-        check(&deviations, &node.path())?;
-        Ok(Self { prior: Prior::Flat(deviations), evidence: false, value: node.value().clone() })
-    }
-
+impl InitialDensity {
     /// The scenario's own form.
     #[must_use]
-    pub const fn to_value(&self) -> &Value {
-        &self.value
+    pub fn to_value(&self) -> Value {
+        self.description.to_value()
     }
 
     /// Whether nothing is known of the position before the first observation.
@@ -103,8 +179,8 @@ impl Initial {
     /// the one before it than about where this one goes.
     #[must_use]
     pub const fn counted(&self) -> Option<&Gaussian> {
-        match &self.prior {
-            Prior::Given(prior) if self.evidence => Some(prior),
+        match (&self.prior, &self.description) {
+            (Prior::Given(prior), Initial::Gaussian { evidence: true, .. }) => Some(prior),
             _ => None,
         }
     }
@@ -145,13 +221,4 @@ impl Initial {
             }
         }
     }
-}
-
-fn check(deviations: &[f64], path: &str) -> Result<()> {
-    if deviations.iter().all(|x| x.is_finite() && *x > 0.0) {
-        return Ok(());
-    }
-    let message =
-        "missing mean and covariance: not every component after the position has noise to take a deviation from";
-    Err(Error::new(Code::MissingKey, path, message))
 }

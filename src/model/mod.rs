@@ -1,4 +1,4 @@
-//! What moves, what is seen, where it may end and when: the parts of the state-space model.
+//! What moves, what is observed, where it may go and when: the parts of the state-space model.
 
 pub mod arrival;
 pub mod bridge;
@@ -6,5 +6,7 @@ pub mod destination;
 pub mod endpoint;
 pub mod habits;
 pub mod initial;
+pub mod matrix;
 pub mod motion;
 pub mod observation;
+pub mod per_axis;

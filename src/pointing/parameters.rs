@@ -5,8 +5,8 @@ use super::{Vector, vector};
 use crate::error::{Code, Error, Result};
 use crate::math::kernel::mixture::HALF_LOG2_E;
 use crate::math::kernel::vectors::{Block, Lanes, raise};
-use crate::model::initial::Initial;
-use crate::model::motion::Motion;
+use crate::model::initial::InitialDensity;
+use crate::model::motion::MotionModels;
 use crate::model::observation::ObservationModel;
 use crate::value::{Node, Value};
 use nalgebra::DMatrix;
@@ -179,7 +179,12 @@ impl Parameters {
     ///
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-type`, `not-finite`, `out-of-range`, `too-large`.
-    pub fn read(node: &Node<'_>, motion: &Motion, observation: &ObservationModel, initial: &Initial) -> Result<Self> {
+    pub fn read(
+        node: &Node<'_>,
+        motion: &MotionModels,
+        observation: &ObservationModel,
+        initial: &InitialDensity,
+    ) -> Result<Self> {
         let filter_noise = filter_noise(motion)?;
         if !observation.is_position() {
             let message = "has no place with the method \"pointing\", which observes positions";
@@ -237,7 +242,7 @@ impl Parameters {
 }
 
 /// The one noise that `constantVelocity` has on every axis.
-fn filter_noise(motion: &Motion) -> Result<f64> {
+fn filter_noise(motion: &MotionModels) -> Result<f64> {
     let value = motion.to_value();
     let node = Node::root(&value, "motion");
     if node.get("type").map(|kind| kind.value().clone()) != Some(Value::text("constantVelocity")) {

@@ -1,6 +1,6 @@
 //! The keys of an object.
 
-use super::{Node, Step, Value, quote};
+use super::{Node, Value, quote};
 use crate::error::{Code, Error, Result};
 
 /// An object whose keys have been checked.
@@ -25,7 +25,7 @@ impl<'a> Fields<'a> {
     #[must_use]
     pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
         let (_, value) = self.entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
-        Some(Node { value, parent: Some(self.node), step: Step::Key(key) })
+        Some(Node { value, path: self.node.place().key(key) })
     }
 
     /// The value at `key`.
@@ -34,9 +34,16 @@ impl<'a> Fields<'a> {
     /// `missing-key`.
     pub fn required(&self, key: &'a str) -> Result<Node<'a>> {
         self.optional(key).ok_or_else(|| {
-            let path = Node { value: &Value::Null, parent: Some(self.node), step: Step::Key(key) }.path();
-            Error::new(Code::MissingKey, path, format!("missing key {}", quote(key)))
+            Error::new(Code::MissingKey, self.node.place().key(key).to_string(), format!("missing key {}", quote(key)))
         })
+    }
+
+    /// [`Node::float`] at `key`.
+    ///
+    /// # Errors
+    /// `missing-key`, `wrong-type`.
+    pub fn float(&self, key: &'a str) -> Result<f64> {
+        self.required(key)?.float()
     }
 
     /// [`Node::number`] at `key`.

@@ -171,10 +171,10 @@ fn everything_wrong_is_refused_by_name_and_changes_nothing() {
 }
 
 #[test]
-fn a_key_that_is_there_twice_is_refused() {
+fn a_duplicate_key_is_refused() {
     let twice = r#"{ "motion": { "type": "brownian", "noise": 1, "dimensions": 1, "noise": 2 } }"#;
     let error = serde_json::from_str::<Scenario>(twice).unwrap_err().to_string();
-    assert_eq!(error, "motion.noise: the key \"noise\" is there twice");
+    assert_eq!(error, "motion.noise: duplicate key \"noise\"");
 }
 
 #[test]

@@ -40,7 +40,7 @@ use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement};
 use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
-use crate::model::motion::Motion;
+use crate::model::motion::MotionModels;
 use candidate::{Candidate, Source, Tables};
 use classes::{Class, Classes};
 use coefficients::Work;
@@ -99,7 +99,7 @@ impl Telescoped {
     /// concerns one axis at a time.
     #[must_use]
     pub fn begin(
-        motion: &Motion,
+        motion: &MotionModels,
         destinations: &Destinations,
         plan: &Plan,
         first: &Gaussian,
@@ -110,7 +110,7 @@ impl Telescoped {
     }
 
     fn new(
-        motion: &Motion,
+        motion: &MotionModels,
         destinations: &Destinations,
         plan: &Plan,
         first: &Gaussian,
@@ -236,7 +236,7 @@ impl Telescoped {
 
     /// The same movement with the dense engines, which answer everything else that is asked about it.
     #[must_use]
-    pub fn movement(&self, motion: &Motion, destinations: &Destinations, plan: Plan) -> Option<Movement> {
+    pub fn movement(&self, motion: &MotionModels, destinations: &Destinations, plan: Plan) -> Option<Movement> {
         let (first, _) = self.candidates.first()?.whole();
         let mut movement = Movement::begin(motion, Method::PseudoObservation, destinations, plan, first);
         for (world, candidate) in movement.worlds.iter_mut().zip(&self.candidates) {
@@ -250,7 +250,7 @@ impl Telescoped {
 
     /// A movement as it was when [`Telescoped::movement`] told it.
     #[must_use]
-    pub fn resume(motion: &Motion, destinations: &Destinations, movement: &Movement, separately: bool) -> Self {
+    pub fn resume(motion: &MotionModels, destinations: &Destinations, movement: &Movement, separately: bool) -> Self {
         let filters: Vec<&Filter> = movement.worlds.iter().map(|world| &world.filter).collect();
         let mut telescoped = Self::new(motion, destinations, &movement.plan, &movement.first, &filters, separately);
         telescoped.elapsed = movement.elapsed;

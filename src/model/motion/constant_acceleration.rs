@@ -9,37 +9,16 @@
 //! Source: Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation", 6.2.3 (the
 //! continuous Wiener process acceleration model). `noise` is in units of length per second^2.5.
 
-use super::{AxisTransition, Kind, MotionModel, axis_value};
-use crate::value::Value;
-use std::sync::Arc;
-
-pub(super) const KIND: (&str, Kind) = (
-    "constantAcceleration",
-    Kind {
-        keys: &["type", "dimensions", "noise"],
-        build: |_, noise, _| Ok(Arc::new(ConstantAcceleration::new(noise))),
-    },
-);
+use super::{AxisTransition, MotionModel};
 
 /// Nearly constant acceleration; `s = 3d`.
-///
-/// ```
-/// use whither::{model::motion::Motion, value::{Node, Value}};
-/// let value = Value::map([
-///     ("type", Value::text("constantAcceleration")),
-///     ("dimensions", Value::Number(1.0)),
-///     ("noise", Value::Number(1.0)),
-/// ]);
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// assert_eq!(motion.candidates[0].model.transition(2.0).transition[(0, 2)], 2.0); // h^2 / 2
-/// ```
 #[derive(Clone, Debug)]
 pub struct ConstantAcceleration {
     noise: Vec<f64>,
 }
 
 impl ConstantAcceleration {
-    const fn new(noise: Vec<f64>) -> Self {
+    pub const fn new(noise: Vec<f64>) -> Self {
         Self { noise }
     }
 }
@@ -68,13 +47,5 @@ impl MotionModel for ConstantAcceleration {
             ],
             ..AxisTransition::default()
         })
-    }
-
-    fn to_value(&self) -> Value {
-        Value::map([
-            ("type", Value::text("constantAcceleration")),
-            ("dimensions", Value::Number(self.noise.len() as f64)),
-            ("noise", axis_value(&self.noise)),
-        ])
     }
 }

@@ -8,35 +8,16 @@
 //! Source: Liang et al., after (1); Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and
 //! Navigation", 6.2.2 (the continuous white-noise acceleration model). `noise` is in units of length per second^1.5.
 
-use super::{AxisTransition, Kind, MotionModel, axis_value};
-use crate::value::Value;
-use std::sync::Arc;
-
-pub(super) const KIND: (&str, Kind) = (
-    "constantVelocity",
-    Kind {
-        keys: &["type", "dimensions", "noise", "speedNoise"],
-        build: |_, noise, _| Ok(Arc::new(ConstantVelocity::new(noise))),
-    },
-);
+use super::{AxisTransition, MotionModel};
 
 /// Nearly constant velocity; `s = 2d`.
-///
-/// ```
-/// use whither::{Value, model::motion::Motion, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 1, "noise": 3 }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(2.0);
-/// assert_eq!(step.transition[(0, 1)], 2.0);
-/// assert_eq!(step.noise.as_slice(), [24.0, 18.0, 18.0, 18.0]); // 3^2 times 2^3 / 3, 2^2 / 2, 2
-/// ```
 #[derive(Clone, Debug)]
 pub struct ConstantVelocity {
     noise: Vec<f64>,
 }
 
 impl ConstantVelocity {
-    const fn new(noise: Vec<f64>) -> Self {
+    pub const fn new(noise: Vec<f64>) -> Self {
         Self { noise }
     }
 }
@@ -59,13 +40,5 @@ impl MotionModel for ConstantVelocity {
             noise: [[q * h * h * h / 3.0, q * h * h / 2.0, 0.0], [q * h * h / 2.0, q * h, 0.0], [0.0; 3]],
             ..AxisTransition::default()
         })
-    }
-
-    fn to_value(&self) -> Value {
-        Value::map([
-            ("type", Value::text("constantVelocity")),
-            ("dimensions", Value::Number(self.noise.len() as f64)),
-            ("noise", axis_value(&self.noise)),
-        ])
     }
 }

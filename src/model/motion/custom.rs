@@ -12,75 +12,62 @@
 //! The methods `bridging` and `singleFilter` need noise that leads to each component of the endpoint.
 //! A drift that grows overflows where `exp(A h)` does: a step of 1000 time constants is `e^1000`.
 
-use super::{AxisTransition, Kind, MotionModel, Transition};
+use super::super::matrix::Matrix;
+use super::{AxisTransition, MotionModel, Transition};
 use crate::error::{Code, Result};
 use crate::math::van_loan::VanLoan;
-use crate::value::{Fields, Node, Value};
+use crate::value::Path;
 use nalgebra::{DMatrix, DVector};
-use std::sync::Arc;
-
-pub(super) const KIND: (&str, Kind) = (
-    "custom",
-    Kind {
-        keys: &["type", "dimensions", "drift", "offset", "destinationGain", "diffusion"],
-        build: |fields, _, dimensions| Ok(Arc::new(Custom::read(fields, dimensions)?)),
-    },
-);
 
 /// The most state components that a custom model can have.
-pub const MAX_STATES: usize = 64;
+const MAX_STATES: usize = 64;
 
 /// How far below zero rounding may push a diffusion that is positive semi-definite, in units of its own diagonal.
 const ROUNDING: f64 = 1e-10;
 
 /// Any linear, time-invariant, Gaussian motion; `s >= d`.
-///
-/// ```
-/// use whither::{model::motion::Motion, value::{Node, Value}};
-/// let value = Value::map([
-///     ("type", Value::text("custom")),
-///     ("dimensions", Value::Number(1.0)),
-///     ("drift", Value::List(vec![Value::numbers(&[0.0, 1.0]), Value::numbers(&[0.0, 0.0])])),
-///     ("diffusion", Value::List(vec![Value::numbers(&[0.0, 0.0]), Value::numbers(&[0.0, 4.0])])),
-/// ]);
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(0.5); // this one is `constantVelocity` with the noise 2
-/// assert_eq!(step.transition[(0, 1)], 0.5);
-/// assert!((step.noise[(1, 1)] - 2.0).abs() < 1e-15);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Custom {
     dimensions: usize,
-    drift: DMatrix<f64>,
+    states: usize,
     offset: Option<DVector<f64>>,
     destination_gain: Option<DMatrix<f64>>,
-    diffusion: DMatrix<f64>,
     equation: VanLoan,
 }
 
 impl Custom {
-    fn read(fields: &Fields<'_>, dimensions: usize) -> Result<Self> {
-        let node = fields.required("drift")?;
-        let states = node.items()?.len();
+    pub fn new(
+        at: &Path<'_>,
+        dimensions: usize,
+        drift: &Matrix,
+        diffusion: &Matrix,
+        offset: Option<&[f64]>,
+        destination_gain: Option<&Matrix>,
+    ) -> Result<Self> {
+        let (place, states) = (at.key("drift"), drift.rows());
         if states < dimensions {
             let must = format!("must have a row for each of the {dimensions} positions at least, has {states}");
-            return Err(node.error(Code::WrongLength, &must));
+            return Err(place.error(Code::WrongLength, &must, drift));
         }
         if states > MAX_STATES {
-            return Err(node.error(Code::TooLarge, &format!("must have at most {MAX_STATES} rows, has {states}")));
+            return Err(place.error(
+                Code::TooLarge,
+                &format!("must have at most {MAX_STATES} rows, has {states}"),
+                drift,
+            ));
         }
-        let drift = DMatrix::from_row_slice(states, states, &node.matrix(states, states)?);
-        let diffusion = diffusion(&fields.required("diffusion")?, states)?;
-        let offset = match fields.optional("offset") {
-            Some(node) => Some(DVector::from_vec(node.vector(Some(states))?)),
-            None => None,
-        };
-        let destination_gain = match fields.optional("destinationGain") {
-            Some(node) => Some(DMatrix::from_row_slice(states, dimensions, &node.matrix(states, dimensions)?)),
-            None => None,
-        };
-        let equation = VanLoan::new(&drift, &diffusion);
-        Ok(Self { dimensions, drift, offset, destination_gain, diffusion, equation })
+        let drift = drift.check(&place, states, states)?;
+        let place = at.key("diffusion");
+        let density = diffusion.check(&place, states, states)?;
+        if !is_positive_semidefinite(&density) {
+            let must = "must be symmetric and positive semi-definite";
+            return Err(place.error(Code::NotPositiveDefinite, must, diffusion));
+        }
+        let offset = offset.map(|offset| at.key("offset").vector(offset, states, |at, x| at.number(x))).transpose()?;
+        let gain =
+            destination_gain.map(|gain| gain.check(&at.key("destinationGain"), states, dimensions)).transpose()?;
+        let equation = VanLoan::new(&drift, &density);
+        Ok(Self { dimensions, states, offset: offset.map(DVector::from_vec), destination_gain: gain, equation })
     }
 }
 
@@ -90,7 +77,7 @@ impl MotionModel for Custom {
     }
 
     fn states(&self) -> usize {
-        self.drift.nrows()
+        self.states
     }
 
     fn depends_on_destination(&self) -> bool {
@@ -115,35 +102,6 @@ impl MotionModel for Custom {
             transition: over.transition,
             noise: over.noise,
         }
-    }
-
-    fn to_value(&self) -> Value {
-        let mut entries = vec![
-            ("type".to_owned(), Value::text("custom")),
-            ("dimensions".to_owned(), Value::Number(self.dimensions as f64)),
-            ("drift".to_owned(), rows(&self.drift)),
-            ("diffusion".to_owned(), rows(&self.diffusion)),
-        ];
-        if let Some(offset) = &self.offset {
-            entries.push(("offset".to_owned(), Value::numbers(offset)));
-        }
-        if let Some(gain) = &self.destination_gain {
-            entries.push(("destinationGain".to_owned(), rows(gain)));
-        }
-        Value::Map(entries)
-    }
-}
-
-fn rows(matrix: &DMatrix<f64>) -> Value {
-    Value::List(matrix.row_iter().map(|row| Value::numbers(row.iter())).collect())
-}
-
-fn diffusion(node: &Node<'_>, states: usize) -> Result<DMatrix<f64>> {
-    let matrix = DMatrix::from_row_slice(states, states, &node.matrix(states, states)?);
-    if is_positive_semidefinite(&matrix) {
-        Ok(matrix)
-    } else {
-        Err(node.error(Code::NotPositiveDefinite, "must be symmetric and positive semi-definite"))
     }
 }
 

@@ -14,53 +14,28 @@
 //! (short steps, near the critical damping, almost no damping). [`VanLoan`] is as accurate in all of them, so it is the
 //! one form here; the tests compare it with the closed forms, computed with 150 digits.
 
-use super::{AxisTransition, Kind, MotionModel, axis_value};
+use super::{AxisTransition, MotionModel};
 use crate::error::Result;
 use crate::math::van_loan::VanLoan;
-use crate::value::{Fields, Value};
+use crate::value::Path;
 use nalgebra::DMatrix;
-use std::sync::Arc;
-
-pub(super) const KIND: (&str, Kind) = (
-    "equilibriumRevertingVelocity",
-    Kind {
-        keys: &["type", "dimensions", "noise", "stiffness", "damping"],
-        build: |fields, noise, _| Ok(Arc::new(EquilibriumRevertingVelocity::read(fields, noise)?)),
-    },
-);
 
 /// A damped spring towards the destination; `s = 2d`.
-///
-/// ```
-/// use whither::{model::motion::Motion, value::{Node, Value}};
-/// let value = Value::map([
-///     ("type", Value::text("equilibriumRevertingVelocity")),
-///     ("dimensions", Value::Number(1.0)),
-///     ("noise", Value::Number(1.0)),
-///     ("stiffness", Value::Number(4.0)),
-///     ("damping", Value::Number(3.0)),
-/// ]);
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(100.0);
-/// assert!((step.destination_gain.unwrap()[(0, 0)] - 1.0).abs() < 1e-14); // after a long time it is there,
-/// assert!((step.noise[(0, 0)] - 1.0 / 24.0).abs() < 1e-14); // with the variance noise^2 / (2 stiffness damping)
-/// ```
 #[derive(Clone, Debug)]
 pub struct EquilibriumRevertingVelocity {
     noise: Vec<f64>,
     stiffness: f64,
-    damping: f64,
     /// One axis, driven by noise of unit density.
     equation: VanLoan,
 }
 
 impl EquilibriumRevertingVelocity {
-    fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
-        let stiffness = fields.positive("stiffness")?;
-        let damping = fields.not_negative("damping")?;
+    pub fn new(at: &Path<'_>, noise: Vec<f64>, stiffness: f64, damping: f64) -> Result<Self> {
+        let stiffness = at.key("stiffness").positive(stiffness)?;
+        let damping = at.key("damping").not_negative(damping)?;
         let drift = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -stiffness, -damping]);
         let diffusion = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 1.0]);
-        Ok(Self { noise, stiffness, damping, equation: VanLoan::new(&drift, &diffusion) })
+        Ok(Self { noise, stiffness, equation: VanLoan::new(&drift, &diffusion) })
     }
 }
 
@@ -89,15 +64,5 @@ impl MotionModel for EquilibriumRevertingVelocity {
             one.destination_gain[i] = self.stiffness * over.integral[(i, 1)];
         }
         Some(one)
-    }
-
-    fn to_value(&self) -> Value {
-        Value::map([
-            ("type", Value::text("equilibriumRevertingVelocity")),
-            ("dimensions", Value::Number(self.noise.len() as f64)),
-            ("noise", axis_value(&self.noise)),
-            ("stiffness", Value::Number(self.stiffness)),
-            ("damping", Value::Number(self.damping)),
-        ])
     }
 }

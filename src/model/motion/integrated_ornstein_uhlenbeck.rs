@@ -12,36 +12,13 @@
 //! long-term prediction", IEEE Transactions on Aerospace and Electronic Systems 52 (2016). Without damping it is
 //! `constantVelocity`. The quotients come from [`math::decay`](crate::math::decay), exact for small `x`.
 
-use super::{AxisTransition, Kind, MotionModel, axis_value};
+use super::super::per_axis::PerAxis;
+use super::{AxisTransition, MotionModel};
 use crate::error::Result;
 use crate::math::decay::{decay, decay_ramp, decay_square};
-use crate::value::{Fields, Value};
-use std::sync::Arc;
-
-pub(super) const KIND: (&str, Kind) = (
-    "integratedOrnsteinUhlenbeck",
-    Kind {
-        keys: &["type", "dimensions", "noise", "damping", "drift"],
-        build: |fields, noise, _| Ok(Arc::new(IntegratedOrnsteinUhlenbeck::read(fields, noise)?)),
-    },
-);
+use crate::value::Path;
 
 /// Integrated Ornstein-Uhlenbeck motion; `s = 2d`.
-///
-/// ```
-/// use whither::{model::motion::Motion, value::{Node, Value}};
-/// let value = Value::map([
-///     ("type", Value::text("integratedOrnsteinUhlenbeck")),
-///     ("dimensions", Value::Number(1.0)),
-///     ("noise", Value::Number(1.0)),
-///     ("damping", Value::Number(2.0)),
-///     ("drift", Value::Number(3.0)),
-/// ]);
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(100.0);
-/// assert_eq!(step.offset[1], 3.0); // after a long time the velocity is `drift`
-/// assert_eq!(step.noise[(1, 1)], 0.25); // and its variance noise^2 / (2 damping)
-/// ```
 #[derive(Clone, Debug)]
 pub struct IntegratedOrnsteinUhlenbeck {
     noise: Vec<f64>,
@@ -50,12 +27,9 @@ pub struct IntegratedOrnsteinUhlenbeck {
 }
 
 impl IntegratedOrnsteinUhlenbeck {
-    fn read(fields: &Fields<'_>, noise: Vec<f64>) -> Result<Self> {
-        let damping = fields.not_negative("damping")?;
-        let drift = match fields.optional("drift") {
-            Some(node) => node.for_each_axis(noise.len(), |node| node.number())?,
-            None => vec![0.0; noise.len()],
-        };
+    pub fn new(at: &Path<'_>, noise: Vec<f64>, damping: f64, drift: &PerAxis) -> Result<Self> {
+        let damping = at.key("damping").not_negative(damping)?;
+        let drift = drift.check(&at.key("drift"), noise.len(), |at, x| at.number(x))?;
         Ok(Self { noise, damping, drift })
     }
 }
@@ -86,15 +60,5 @@ impl MotionModel for IntegratedOrnsteinUhlenbeck {
             ],
             ..AxisTransition::default()
         })
-    }
-
-    fn to_value(&self) -> Value {
-        Value::map([
-            ("type", Value::text("integratedOrnsteinUhlenbeck")),
-            ("dimensions", Value::Number(self.noise.len() as f64)),
-            ("noise", axis_value(&self.noise)),
-            ("damping", Value::Number(self.damping)),
-            ("drift", axis_value(&self.drift)),
-        ])
     }
 }

@@ -12,168 +12,259 @@
 //!
 //! | `type` | file | states | equation of an axis |
 //! |---|---|---|---|
-//! | `brownian` | [`brownian`] | `d` | `dx = dw` |
-//! | `constantVelocity` | [`constant_velocity`] | `2d` | `dv = dw` |
-//! | `constantAcceleration` | [`constant_acceleration`] | `3d` | `da = dw` |
-//! | `integratedOrnsteinUhlenbeck` | [`integrated_ornstein_uhlenbeck`] | `2d` | `dv = damping (drift - v) dt + dw` |
-//! | `meanReverting` | [`mean_reverting`] | `d` | `dx = rate (c - x) dt + dw` |
-//! | `equilibriumRevertingVelocity` | [`equilibrium_reverting_velocity`] | `2d` | `dv = (stiffness (c - x) - damping v) dt + dw` |
-//! | `custom` | [`custom`] | any | any |
+//! | `brownian` | `brownian` | `d` | `dx = dw` |
+//! | `constantVelocity` | `constant_velocity` | `2d` | `dv = dw` |
+//! | `constantAcceleration` | `constant_acceleration` | `3d` | `da = dw` |
+//! | `integratedOrnsteinUhlenbeck` | `integrated_ornstein_uhlenbeck` | `2d` | `dv = damping (drift - v) dt + dw` |
+//! | `meanReverting` | `mean_reverting` | `d` | `dx = rate (c - x) dt + dw` |
+//! | `equilibriumRevertingVelocity` | `equilibrium_reverting_velocity` | `2d` | `dv = (stiffness (c - x) - damping v) dt + dw` |
+//! | `custom` | `custom` | any | any |
 
+use super::matrix::Matrix;
+use super::per_axis::PerAxis;
 use crate::error::{Code, Error, Result};
-use crate::value::{Fields, Node, Value};
-use nalgebra::{DMatrix, DVector};
-use std::fmt;
+use crate::value::{Path, Value};
 use std::sync::Arc;
 
-pub mod brownian;
-pub mod constant_acceleration;
-pub mod constant_velocity;
-pub mod custom;
-pub mod equilibrium_reverting_velocity;
-pub mod integrated_ornstein_uhlenbeck;
-pub mod mean_reverting;
+mod brownian;
+mod constant_acceleration;
+mod constant_velocity;
+mod custom;
+mod equilibrium_reverting_velocity;
+mod form;
+mod integrated_ornstein_uhlenbeck;
+mod mean_reverting;
+mod noise;
+mod transition;
+
+use brownian::Brownian;
+use constant_acceleration::ConstantAcceleration;
+use constant_velocity::ConstantVelocity;
+use custom::Custom;
+use equilibrium_reverting_velocity::EquilibriumRevertingVelocity;
+use integrated_ornstein_uhlenbeck::IntegratedOrnsteinUhlenbeck;
+use mean_reverting::MeanReverting;
+pub use noise::MotionNoise;
+pub use transition::{AxisTransition, MotionModel, Transition};
 
 /// The most axes that a model can have.
 pub const MAX_DIMENSIONS: usize = 3;
-/// The most candidates that `noise` can have.
-pub const MAX_CANDIDATES: usize = 64;
 
-/// One step of a motion model, `x_k = F x_{k-1} + M + B c + e`, `e ~ N(0, Q)`, with `c` the destination's centre.
+/// How the object moves: linear, time-invariant, Gaussian, `dx = (A x + b + B c) dt + dw`, `E[dw dw'] = W dt`; Liang (1).
+///
+/// `c` is the centre of the destination that is tried. The state has all positions, then all velocities, then all accelerations;
+/// `dimensions` is 1 to 3. `noise` is the square root of the spectral density of what drives each axis: `W` is `noise^2` there and
+/// zero elsewhere. What is wrong with a motion is reported where it is used: by [`ScenarioBuilder::build`](crate::ScenarioBuilder::build).
 ///
 /// ```
-/// use whither::{Value, model::motion::Motion, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 2, "noise": 3 }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(2.0);
-/// assert_eq!(step.transition.nrows(), 4); // x, y and their velocities
-/// assert_eq!((step.transition[(0, 2)], step.transition[(1, 3)]), (2.0, 2.0));
-/// assert_eq!(step.destination_gain, None);
+/// use whither::{Motion, MotionNoise};
+/// let pointer = Motion::constant_velocity(2, 3000.0); // px/s^1.5
+/// let vessel = Motion::integrated_ornstein_uhlenbeck(2, [0.2, 0.3], 0.01);
+/// let bird = Motion::brownian(3, MotionNoise::candidates([1.0, 5.0]));
+/// // a damped oscillation about the destination, matrix by matrix
+/// let swing = Motion::Custom {
+///     dimensions: 1,
+///     drift: [[0.0, 1.0], [-4.0, -0.5]].into(),
+///     diffusion: [[0.0, 0.0], [0.0, 9.0]].into(),
+///     offset: None,
+///     destination_gain: Some([[0.0], [4.0]].into()),
+/// };
+/// # let _ = (pointer, vessel, bird, swing);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Transition {
-    /// `F`, `s` by `s`.
-    pub transition: DMatrix<f64>,
-    /// `M`, of length `s`.
-    pub offset: DVector<f64>,
-    /// `B`, `s` by `d`; none where the model does not know the destination.
-    pub destination_gain: Option<DMatrix<f64>>,
-    /// `Q`, `s` by `s`, symmetric.
-    pub noise: DMatrix<f64>,
+pub enum Motion {
+    /// The position is a random walk, `dx = dw`; `s = d`. `noise` is in units of length per second^0.5.
+    Brownian {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the position.
+        noise: MotionNoise,
+    },
+    /// The velocity is a random walk, `dv = dw`; `s = 2d`. `noise` is in units of length per second^1.5.
+    ConstantVelocity {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the velocity.
+        noise: MotionNoise,
+        /// How the noise grows with the speed: for the pointing model alone.
+        speed_noise: Option<f64>,
+    },
+    /// The acceleration is a random walk, `da = dw`; `s = 3d`. `noise` is in units of length per second^2.5.
+    ConstantAcceleration {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the acceleration.
+        noise: MotionNoise,
+    },
+    /// The velocity reverts to a mean, `dv = damping (drift - v) dt + dw`; `s = 2d`.
+    IntegratedOrnsteinUhlenbeck {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the velocity, in units of length per second^1.5.
+        noise: MotionNoise,
+        /// The rate of reverting, in 1/s; at least 0.
+        damping: f64,
+        /// The velocity to which it reverts.
+        drift: PerAxis,
+    },
+    /// The position reverts to the destination, `dx = rate (c - x) dt + dw`; `s = d`.
+    MeanReverting {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the position, in units of length per second^0.5.
+        noise: MotionNoise,
+        /// The rate of reverting, in 1/s; above 0.
+        rate: f64,
+    },
+    /// A damped spring towards the destination, `dv = (stiffness (c - x) - damping v) dt + dw`; `s = 2d`.
+    EquilibriumRevertingVelocity {
+        /// `d`.
+        dimensions: usize,
+        /// What drives the velocity, in units of length per second^1.5.
+        noise: MotionNoise,
+        /// In 1/s^2; above 0.
+        stiffness: f64,
+        /// In 1/s; at least 0.
+        damping: f64,
+    },
+    /// Any `A`, `b`, `B` and `W`, of `s >= d` components of which the first `d` are the position.
+    Custom {
+        /// `d`.
+        dimensions: usize,
+        /// `A`, `s` by `s`.
+        drift: Matrix,
+        /// `W`, `s` by `s`, symmetric and positive semi-definite. With `bridging` and `singleFilter` it must lead to each
+        /// component of the endpoint.
+        diffusion: Matrix,
+        /// `b`, of length `s`; zero where it is left out.
+        offset: Option<Vec<f64>>,
+        /// `B`, `s` by `d`; zero where it is left out.
+        destination_gain: Option<Matrix>,
+    },
 }
 
-/// One step of one axis of a model whose axes do not mix: the same equation with at most three components
-/// (position, velocity, acceleration). What lies beyond `states` is zero.
-///
-/// ```
-/// use whither::{Value, model::motion::Motion, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "type": "constantVelocity", "dimensions": 2, "noise": 3 }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let axis = motion.candidates[0].model.axis(1, 2.0).unwrap();
-/// assert_eq!((axis.states, axis.transition[0]), (2, [1.0, 2.0, 0.0]));
-/// assert_eq!(motion.candidates[0].model.axis(2, 2.0), None); // there are two axes
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisTransition {
-    /// How many components the axis has: 1, 2 or 3.
-    pub states: usize,
-    /// `F`.
-    pub transition: [[f64; 3]; 3],
-    /// `M`.
-    pub offset: [f64; 3],
-    /// `B`, for this axis of the destination's centre; zero where the model does not know the destination.
-    pub destination_gain: [f64; 3],
-    /// `Q`, symmetric.
-    pub noise: [[f64; 3]; 3],
-}
-
-/// A motion model: what it is over any step.
-///
-/// ```
-/// use whither::{Value, model::motion::Motion, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "type": "constantAcceleration", "dimensions": 1, "noise": 3 }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let model = &motion.candidates[0].model;
-/// assert_eq!((model.dimensions(), model.states()), (1, 3));
-/// // two steps are one step of both
-/// let (first, second, both) = (model.transition(0.5), model.transition(1.5), model.transition(2.0));
-/// let carried = &second.transition * first.noise * second.transition.transpose() + second.noise;
-/// assert!((second.transition * first.transition - both.transition).amax() < 1e-14);
-/// assert!((carried - both.noise).amax() < 1e-12);
-/// ```
-pub trait MotionModel: Send + Sync {
-    /// Spatial dimensions `d`, 1 to 3.
-    fn dimensions(&self) -> usize;
-
-    /// State components `s`.
-    fn states(&self) -> usize;
-
-    /// Whether `B` is not zero: the movement knows where it is going.
-    fn depends_on_destination(&self) -> bool {
-        false
+impl Motion {
+    /// [`Motion::Brownian`].
+    pub fn brownian(dimensions: usize, noise: impl Into<MotionNoise>) -> Self {
+        Self::Brownian { dimensions, noise: noise.into() }
     }
 
-    /// One step of one axis, `step >= 0` seconds; none where axes mix, or there is no such axis.
-    fn axis(&self, axis: usize, step: f64) -> Option<AxisTransition>;
-
-    /// One step of the whole state, `step >= 0` seconds. Zero gives the identity and no noise.
-    fn transition(&self, step: f64) -> Transition {
-        assemble(self.dimensions(), self.states(), self.depends_on_destination(), |axis| self.axis(axis, step))
+    /// [`Motion::ConstantVelocity`], with a noise that does not depend on the speed.
+    pub fn constant_velocity(dimensions: usize, noise: impl Into<MotionNoise>) -> Self {
+        Self::ConstantVelocity { dimensions, noise: noise.into(), speed_noise: None }
     }
 
-    /// The model as a scenario writes it.
-    fn to_value(&self) -> Value;
-}
-
-impl fmt::Debug for dyn MotionModel + '_ {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("MotionModel")
+    /// [`Motion::ConstantAcceleration`].
+    pub fn constant_acceleration(dimensions: usize, noise: impl Into<MotionNoise>) -> Self {
+        Self::ConstantAcceleration { dimensions, noise: noise.into() }
     }
-}
 
-/// The whole state's step from those of the axes: component `i` of axis `k` stands at `i d + k`.
-#[inline(never)]
-fn assemble(
-    dimensions: usize,
-    states: usize,
-    depends_on_destination: bool,
-    axis: impl Fn(usize) -> Option<AxisTransition>,
-) -> Transition {
-    let mut whole = Transition {
-        transition: DMatrix::zeros(states, states),
-        offset: DVector::zeros(states),
-        destination_gain: depends_on_destination.then(|| DMatrix::zeros(states, dimensions)),
-        noise: DMatrix::zeros(states, states),
-    };
-    for k in 0..dimensions {
-        let Some(one) = axis(k) else { continue };
-        for i in 0..one.states {
-            let row = i * dimensions + k;
-            for j in 0..one.states {
-                whole.transition[(row, j * dimensions + k)] = one.transition[i][j];
-                whole.noise[(row, j * dimensions + k)] = one.noise[i][j];
+    /// [`Motion::IntegratedOrnsteinUhlenbeck`] that comes to rest: without a drift.
+    pub fn integrated_ornstein_uhlenbeck(dimensions: usize, noise: impl Into<MotionNoise>, damping: f64) -> Self {
+        Self::IntegratedOrnsteinUhlenbeck { dimensions, noise: noise.into(), damping, drift: PerAxis::All(0.0) }
+    }
+
+    /// [`Motion::MeanReverting`].
+    pub fn mean_reverting(dimensions: usize, noise: impl Into<MotionNoise>, rate: f64) -> Self {
+        Self::MeanReverting { dimensions, noise: noise.into(), rate }
+    }
+
+    /// [`Motion::EquilibriumRevertingVelocity`].
+    pub fn equilibrium_reverting_velocity(
+        dimensions: usize,
+        noise: impl Into<MotionNoise>,
+        stiffness: f64,
+        damping: f64,
+    ) -> Self {
+        Self::EquilibriumRevertingVelocity { dimensions, noise: noise.into(), stiffness, damping }
+    }
+
+    /// [`Motion::Custom`] without offset and destination gain.
+    pub fn custom(dimensions: usize, drift: impl Into<Matrix>, diffusion: impl Into<Matrix>) -> Self {
+        let (drift, diffusion) = (drift.into(), diffusion.into());
+        Self::Custom { dimensions, drift, diffusion, offset: None, destination_gain: None }
+    }
+
+    /// The model, or one for each noise candidate, of what is described at `at`.
+    ///
+    /// # Errors
+    /// `wrong-length`, `not-finite`, `out-of-range`, `too-large`, `not-positive-definite`.
+    pub(crate) fn models(&self, at: &Path<'_>) -> Result<MotionModels> {
+        let (Self::Brownian { dimensions, .. }
+        | Self::ConstantVelocity { dimensions, .. }
+        | Self::ConstantAcceleration { dimensions, .. }
+        | Self::IntegratedOrnsteinUhlenbeck { dimensions, .. }
+        | Self::MeanReverting { dimensions, .. }
+        | Self::EquilibriumRevertingVelocity { dimensions, .. }
+        | Self::Custom { dimensions, .. }) = self;
+        let dimensions = check_dimensions(&at.key("dimensions"), *dimensions as f64)?;
+        let noises = match self.noise() {
+            Some(noise) => noise.check(&at.key("noise"), dimensions)?,
+            None => vec![(Vec::new(), 1.0)],
+        };
+        let total: f64 = noises.iter().map(|(_, weight)| weight).sum();
+        let mut candidates = Vec::with_capacity(noises.len());
+        for (noise, weight) in noises {
+            candidates.push(Candidate { model: self.model(at, dimensions, noise)?, weight: weight / total });
+        }
+        let speed_noise = match self {
+            Self::ConstantVelocity { speed_noise: Some(growth), .. } => {
+                Some(at.key("speedNoise").not_negative(*growth)?)
             }
-            whole.offset[row] = one.offset[i];
-            if let Some(gain) = &mut whole.destination_gain {
-                gain[(row, k)] = one.destination_gain[i];
-            }
+            _ => None,
+        };
+        let Some(first) = candidates.first().map(|candidate| Arc::clone(&candidate.model)) else {
+            return Err(Error::new(Code::WrongLength, at.to_string(), "must have at least one noise candidate"));
+        };
+        Ok(MotionModels {
+            candidates,
+            speed_noise,
+            dimensions,
+            states: first.states(),
+            depends_on_destination: first.depends_on_destination(),
+            description: self.clone(),
+        })
+    }
+
+    fn noise(&self) -> Option<&MotionNoise> {
+        match self {
+            Self::Brownian { noise, .. }
+            | Self::ConstantVelocity { noise, .. }
+            | Self::ConstantAcceleration { noise, .. }
+            | Self::IntegratedOrnsteinUhlenbeck { noise, .. }
+            | Self::MeanReverting { noise, .. }
+            | Self::EquilibriumRevertingVelocity { noise, .. } => Some(noise),
+            Self::Custom { .. } => None,
         }
     }
-    whole
+
+    fn model(&self, at: &Path<'_>, dimensions: usize, noise: Vec<f64>) -> Result<Arc<dyn MotionModel>> {
+        Ok(match self {
+            Self::Brownian { .. } => Arc::new(Brownian::new(noise)),
+            Self::ConstantVelocity { .. } => Arc::new(ConstantVelocity::new(noise)),
+            Self::ConstantAcceleration { .. } => Arc::new(ConstantAcceleration::new(noise)),
+            Self::IntegratedOrnsteinUhlenbeck { damping, drift, .. } => {
+                Arc::new(IntegratedOrnsteinUhlenbeck::new(at, noise, *damping, drift)?)
+            }
+            Self::MeanReverting { rate, .. } => Arc::new(MeanReverting::new(at, noise, *rate)?),
+            Self::EquilibriumRevertingVelocity { stiffness, damping, .. } => {
+                Arc::new(EquilibriumRevertingVelocity::new(at, noise, *stiffness, *damping)?)
+            }
+            Self::Custom { drift, diffusion, offset, destination_gain, .. } => {
+                Arc::new(Custom::new(at, dimensions, drift, diffusion, offset.as_deref(), destination_gain.as_ref())?)
+            }
+        })
+    }
+}
+
+fn check_dimensions(at: &Path<'_>, dimensions: f64) -> Result<usize> {
+    at.whole(dimensions, 1, MAX_DIMENSIONS).map_err(|error| match error.code() {
+        Code::TooLarge => Error::new(Code::OutOfRange, error.path(), error.message()),
+        _ => error,
+    })
 }
 
 /// A motion model and its share in the average over noise candidates.
-///
-/// ```
-/// use whither::{Value, model::motion::Motion, value::Node};
-/// let value: Value = serde_json::from_str(r#"{
-///     "type": "brownian", "dimensions": 1, "noise": { "candidates": [2, 5], "weights": [1, 3] }
-/// }"#).unwrap();
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let [calm, lively] = &motion.candidates[..] else { panic!() };
-/// assert_eq!((calm.weight, lively.weight), (0.25, 0.75));
-/// assert_eq!(lively.model.transition(1.0).noise[(0, 0)], 25.0);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The model.
@@ -182,22 +273,9 @@ pub struct Candidate {
     pub weight: f64,
 }
 
-/// The `motion` of a scenario: one model, or one for each noise candidate.
-///
-/// ```
-/// use whither::{model::motion::Motion, value::{Node, Value}};
-/// let value = Value::map([
-///     ("type", Value::text("brownian")),
-///     ("dimensions", Value::Number(2.0)),
-///     ("noise", Value::Number(3.0)),
-/// ]);
-/// let motion = Motion::read(&Node::root(&value, "motion")).unwrap();
-/// let step = motion.candidates[0].model.transition(0.5);
-/// assert_eq!(step.noise[(1, 1)], 4.5); // 3^2 * 0.5
-/// assert_eq!(motion.to_value(), value);
-/// ```
+/// The motion models of a scenario.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct MotionModels {
     /// One model, or one for each noise candidate; never empty.
     pub candidates: Vec<Candidate>,
     /// How much the noise grows with the speed, `speedNoise`: of `constantVelocity` under the method `pointing` only.
@@ -205,78 +283,10 @@ pub struct Motion {
     dimensions: usize,
     states: usize,
     depends_on_destination: bool,
-    /// The weights as they were given, so that a scenario written and read again is the same to the bit.
-    given_weights: Option<Vec<f64>>,
+    description: Motion,
 }
 
-/// One `type`: the keys that it has, and how it is built from them and, of each axis, the noise.
-#[derive(Clone, Copy)]
-struct Kind {
-    keys: &'static [&'static str],
-    build: Build,
-}
-
-type Build = fn(&Fields<'_>, Vec<f64>, usize) -> Result<Arc<dyn MotionModel>>;
-
-/// Every `type`; without the methods of the papers the one that the pointing model moves by.
-const KINDS: &[(&str, Kind)] = &[
-    brownian::KIND,
-    constant_velocity::KIND,
-    constant_acceleration::KIND,
-    integrated_ornstein_uhlenbeck::KIND,
-    mean_reverting::KIND,
-    equilibrium_reverting_velocity::KIND,
-    custom::KIND,
-];
-
-impl Motion {
-    /// Reads `{ "type", "dimensions", ... }`.
-    ///
-    /// # Errors
-    /// `missing-key`, `unknown-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `too-large`,
-    /// `not-positive-definite`.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
-        let kind = node.tag("type", KINDS)?;
-        let fields = node.fields(kind.keys)?;
-        let dimensions = dimensions(&fields.required("dimensions")?)?;
-        let noise = match kind.keys.contains(&"noise") {
-            true => NoiseCandidates::read(&fields.required("noise")?, dimensions)?,
-            false => NoiseCandidates::fixed(Vec::new()),
-        };
-        let build = |noise: Vec<f64>| (kind.build)(&fields, noise, dimensions);
-        let models = noise.noises.into_iter().map(build).collect::<Result<Vec<_>>>()?;
-        let speed_noise = match fields.optional("speedNoise") {
-            Some(node) => Some(node.not_negative()?),
-            None => None,
-        };
-        Self::average(models, noise.weights, speed_noise, node)
-    }
-
-    fn average(
-        models: Vec<Arc<dyn MotionModel>>,
-        given_weights: Option<Vec<f64>>,
-        speed_noise: Option<f64>,
-        node: &Node<'_>,
-    ) -> Result<Self> {
-        let Some(first) = models.first().cloned() else {
-            return Err(node.error(Code::WrongLength, "must have at least one noise candidate"));
-        };
-        let weights = given_weights.clone().unwrap_or_else(|| vec![1.0; models.len()]);
-        let sum: f64 = weights.iter().sum();
-        Ok(Self {
-            candidates: models
-                .into_iter()
-                .zip(weights)
-                .map(|(model, weight)| Candidate { model, weight: weight / sum })
-                .collect(),
-            speed_noise,
-            dimensions: first.dimensions(),
-            states: first.states(),
-            depends_on_destination: first.depends_on_destination(),
-            given_weights,
-        })
-    }
-
+impl MotionModels {
     /// Spatial dimensions `d`.
     #[must_use]
     pub const fn dimensions(&self) -> usize {
@@ -298,89 +308,7 @@ impl Motion {
     /// The motion as a scenario writes it; reading it again gives the same.
     #[must_use]
     pub fn to_value(&self) -> Value {
-        let mut entries = match self.candidates.first().map(|c| c.model.to_value()) {
-            Some(Value::Map(entries)) => entries,
-            _ => Vec::new(),
-        };
-        if self.candidates.len() > 1 || self.given_weights.is_some() {
-            let each = self.candidates.iter().filter_map(|c| noise_of(c.model.to_value())).collect();
-            let mut noise = vec![("candidates".to_owned(), Value::List(each))];
-            if let Some(weights) = &self.given_weights {
-                noise.push(("weights".to_owned(), Value::numbers(weights)));
-            }
-            for (key, value) in &mut entries {
-                if key == "noise" {
-                    *value = Value::Map(std::mem::take(&mut noise));
-                }
-            }
-        }
-        if let Some(speed_noise) = self.speed_noise {
-            entries.push(("speedNoise".to_owned(), Value::Number(speed_noise)));
-        }
-        Value::Map(entries)
-    }
-}
-
-fn noise_of(model: Value) -> Option<Value> {
-    let Value::Map(entries) = model else { return None };
-    entries.into_iter().find_map(|(key, value)| (key == "noise").then_some(value))
-}
-
-fn dimensions(node: &Node<'_>) -> Result<usize> {
-    node.whole(1, MAX_DIMENSIONS).map_err(|error| match error.code() {
-        Code::TooLarge => Error::new(Code::OutOfRange, error.path(), error.message()),
-        _ => error,
-    })
-}
-
-/// `noise`: a number, one for each axis, or `{ "candidates", "weights"? }`.
-struct NoiseCandidates {
-    noises: Vec<Vec<f64>>,
-    weights: Option<Vec<f64>>,
-}
-
-impl NoiseCandidates {
-    fn fixed(noise: Vec<f64>) -> Self {
-        Self { noises: vec![noise], weights: None }
-    }
-
-    fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        if !matches!(node.value(), Value::Map(_)) {
-            return Ok(Self::fixed(node.for_each_axis(dimensions, |n| n.positive())?));
-        }
-        let fields = node.fields(&["candidates", "weights"])?;
-        let candidates = fields.required("candidates")?;
-        let items = candidates.items()?;
-        let count = items.len();
-        if count == 0 {
-            return Err(candidates.error(Code::WrongLength, "must have at least one candidate"));
-        }
-        if count > MAX_CANDIDATES {
-            let must = format!("must have at most {MAX_CANDIDATES} candidates, has {count}");
-            return Err(candidates.error(Code::TooLarge, &must));
-        }
-        let noises =
-            items.map(|item| item.for_each_axis(dimensions, |n| n.positive())).collect::<Result<Vec<Vec<f64>>>>()?;
-        let weights = match fields.optional("weights") {
-            None => None,
-            Some(weights) => {
-                weights.vector(Some(count))?;
-                let given = weights.numbers(|item| item.positive())?;
-                if !given.iter().sum::<f64>().is_finite() {
-                    return Err(weights.error(Code::OutOfRange, "must have a finite sum"));
-                }
-                Some(given)
-            }
-        };
-        Ok(Self { noises, weights })
-    }
-}
-
-/// One number where all axes have the same, a list where they differ.
-fn axis_value(axes: &[f64]) -> Value {
-    match axes {
-        [first, rest @ ..] if rest.iter().all(|x| x == first) => Value::Number(*first),
-        _ => Value::numbers(axes),
+        self.description.to_value()
     }
 }
 

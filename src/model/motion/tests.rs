@@ -1,4 +1,6 @@
 use super::*;
+use crate::value::Node;
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -6,11 +8,15 @@ fn value(json: &str) -> Value {
     serde_json::from_str(json).unwrap()
 }
 
-fn read(json: &str) -> Result<Motion> {
-    Motion::read(&Node::root(&value(json), "motion"))
+fn models(node: &Node<'_>) -> Result<MotionModels> {
+    Motion::read(node)?.models(node.place())
 }
 
-fn only(motion: &Motion) -> &dyn MotionModel {
+fn read(json: &str) -> Result<MotionModels> {
+    models(&Node::root(&value(json), "motion"))
+}
+
+fn only(motion: &MotionModels) -> &dyn MotionModel {
     &*motion.candidates[0].model
 }
 
@@ -135,7 +141,7 @@ fn every_entry_is_right_from_a_millionth_of_a_time_constant_to_a_thousand() {
     let root = Node::root(&cases, "steps");
     let mut compared = 0;
     for case in root.items().unwrap() {
-        let motion = Motion::read(&case.get("motion").unwrap()).unwrap();
+        let motion = models(&case.get("motion").unwrap()).unwrap();
         for expected in case.get("steps").unwrap().items().unwrap().map(|step| Expected::read(&step)) {
             let error = expected.error(&only(&motion).transition(expected.step));
             assert!(error < 1e-10, "{} over {}: {error:e}", case.get("name").unwrap().value().quoted(), expected.step);
@@ -174,7 +180,7 @@ fn any_axis_model() -> impl Strategy<Value = (String, f64)> {
 }
 
 /// The same equation as `custom`, from the equation in the head of each file.
-fn as_custom(json: &str) -> Motion {
+fn as_custom(json: &str) -> MotionModels {
     let value = value(json);
     let node = Node::root(&value, "motion");
     let number = |key: &str| node.get(key).map_or(0.0, |node| node.number().unwrap());
@@ -210,7 +216,7 @@ fn as_custom(json: &str) -> Motion {
         ("offset", Value::List((0..s).map(|i| entry(if driven(i) { offset } else { 0.0 })).collect())),
         ("destinationGain", grid(d, &|i, j| if driven(i) && i % d == j { gain } else { 0.0 })),
     ]);
-    Motion::read(&Node::root(&custom, "custom")).unwrap()
+    models(&Node::root(&custom, "custom")).unwrap()
 }
 
 /// The largest difference of two transitions, in units of the entry in `scale`, and of deviations for the noise.
@@ -324,10 +330,7 @@ fn bad_motions_are_refused_by_name() {
             "motion.noise[1]: must be greater than 0, got 0",
         ),
         (
-            format!(
-                r#"{{"type": "brownian", "dimensions": 1, "noise": {{"candidates": {:?}}}}}"#,
-                vec![1.0; MAX_CANDIDATES + 1]
-            ),
+            format!(r#"{{"type": "brownian", "dimensions": 1, "noise": {{"candidates": {:?}}}}}"#, vec![1.0; 65]),
             "too-large",
             "motion.noise.candidates: must have at most 64 candidates, has 65, got [1, 1, 1, 1, ...]",
         ),

@@ -7,10 +7,12 @@
 use crate::error::{Code, Error, Result};
 
 mod fields;
+mod path;
 mod quote;
 mod serial;
 
 pub use fields::Fields;
+pub use path::{Check, Path};
 pub use quote::{number, quote};
 
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
@@ -46,6 +48,12 @@ impl Value {
     #[must_use]
     pub fn map<const N: usize>(entries: [(&str, Self); N]) -> Self {
         Self::Map(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+    }
+
+    /// An object of those entries that there are.
+    #[must_use]
+    pub fn some(entries: Vec<(&str, Option<Self>)>) -> Self {
+        Self::Map(entries.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect())
     }
 
     /// A list of numbers.
@@ -125,34 +133,30 @@ impl Value {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Step<'a> {
-    Root(&'a str),
-    Key(&'a str),
-    Index(usize),
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
 }
 
-/// A value and where it stands.
-///
-/// ```
-/// use whither::{Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "center": [1.5, "two"] }"#).unwrap();
-/// let root = Node::root(&value, "destinations[3]");
-/// let error = root.get("center").unwrap().vector(Some(2)).unwrap_err();
-/// assert_eq!(error.to_string(), "destinations[3].center[1]: must be a number, got \"two\"");
-/// ```
+impl From<&[f64]> for Value {
+    fn from(numbers: &[f64]) -> Self {
+        Self::numbers(numbers)
+    }
+}
+
+/// A value and its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<'a> {
     value: &'a Value,
-    parent: Option<&'a Node<'a>>,
-    step: Step<'a>,
+    path: Path<'a>,
 }
 
 impl<'a> Node<'a> {
     /// The root of a tree. `name` begins every path (empty for a scenario, `destination` for one destination).
     #[must_use]
     pub const fn root(value: &'a Value, name: &'a str) -> Self {
-        Self { value, parent: None, step: Step::Root(name) }
+        Self { value, path: Path::root(name) }
     }
 
     /// The value itself.
@@ -161,23 +165,16 @@ impl<'a> Node<'a> {
         self.value
     }
 
-    /// Where it stands, such as `destinations[3].covariance`.
+    /// Where it is, such as `destinations[3].covariance`.
+    #[must_use]
+    pub const fn place(&self) -> &Path<'a> {
+        &self.path
+    }
+
+    /// The same in words.
     #[must_use]
     pub fn path(&self) -> String {
-        let mut path = self.parent.map(Node::path).unwrap_or_default();
-        match self.step {
-            Step::Root(name) => path.push_str(name),
-            Step::Key(key) => {
-                if !path.is_empty() {
-                    path.push('.');
-                }
-                path.push_str(key);
-            }
-            Step::Index(i) => {
-                path += &format!("[{i}]");
-            }
-        }
-        path
+        self.path.to_string()
     }
 
     /// An error about this value: `"must be positive"` becomes `"must be positive, got -3"`.
@@ -195,14 +192,14 @@ impl<'a> Node<'a> {
             return Err(self.error(Code::WrongType, "must be an object"));
         };
         for (i, (key, _)) in entries.iter().enumerate() {
-            let path = || Node { value: self.value, parent: Some(self), step: Step::Key(key) }.path();
+            let path = || self.path.key(key).to_string();
             if !legal.contains(&key.as_str()) {
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
                 let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
                 return Err(Error::new(Code::UnknownKey, path(), message));
             }
             if entries[..i].iter().any(|(before, _)| before == key) {
-                return Err(Error::new(Code::UnknownKey, path(), format!("the key {} is there twice", quote(key))));
+                return Err(Error::new(Code::UnknownKey, path(), format!("duplicate key {}", quote(key))));
             }
         }
         Ok(Fields { entries, node: self })
@@ -213,7 +210,7 @@ impl<'a> Node<'a> {
     pub fn get<'b>(&'b self, key: &'b str) -> Option<Node<'b>> {
         let Value::Map(entries) = self.value else { return None };
         let (_, value) = entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
-        Some(Node { value, parent: Some(self), step: Step::Key(key) })
+        Some(Node { value, path: self.path.key(key) })
     }
 
     /// One of the given words at `key` of an object whose other legal keys depend on that word.
@@ -227,17 +224,31 @@ impl<'a> Node<'a> {
         Fields { entries, node: self }.required(key)?.word(words)
     }
 
-    /// A finite number, at most [`LARGEST`] in absolute value.
+    /// Any number.
     ///
     /// # Errors
-    /// `wrong-type`, `not-finite`, `out-of-range`.
-    pub fn number(&self) -> Result<f64> {
+    /// `wrong-type`.
+    pub fn float(&self) -> Result<f64> {
         match self.value {
-            Value::Number(x) if x.abs() <= LARGEST => Ok(*x),
-            Value::Number(x) if x.is_finite() => Err(self.error(Code::OutOfRange, "must be from -1e50 to 1e50")),
-            Value::Number(_) => Err(self.error(Code::NotFinite, "must be a finite number")),
+            Value::Number(x) => Ok(*x),
             _ => Err(self.error(Code::WrongType, "must be a number")),
         }
+    }
+
+    /// A list of numbers.
+    ///
+    /// # Errors
+    /// `wrong-type`.
+    pub fn floats(&self) -> Result<Vec<f64>> {
+        self.numbers(|item| item.float())
+    }
+
+    /// A number that passes [`Path::number`].
+    ///
+    /// # Errors
+    /// `wrong-type`, and those of [`Path::number`].
+    pub fn number(&self) -> Result<f64> {
+        self.path.number(self.float()?)
     }
 
     /// True or false.
@@ -251,41 +262,28 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// A number above zero whose square and whose inverse are within reach: from 1e-50 to 1e50.
+    /// A number that passes [`Path::positive`].
     ///
     /// # Errors
-    /// As [`Node::number`].
+    /// `wrong-type`, and those of [`Path::positive`].
     pub fn positive(&self) -> Result<f64> {
-        match self.number()? {
-            x if x <= 0.0 => Err(self.error(Code::OutOfRange, "must be greater than 0")),
-            x if x < 1.0 / LARGEST => Err(self.error(Code::OutOfRange, "must be at least 1e-50")),
-            x => Ok(x),
-        }
+        self.path.positive(self.float()?)
     }
 
-    /// A number that is zero or above.
+    /// A number that passes [`Path::not_negative`].
     ///
     /// # Errors
-    /// As [`Node::number`], and `out-of-range`.
+    /// `wrong-type`, and those of [`Path::not_negative`].
     pub fn not_negative(&self) -> Result<f64> {
-        let x = self.number()?;
-        if x >= 0.0 { Ok(x) } else { Err(self.error(Code::OutOfRange, "must be at least 0")) }
+        self.path.not_negative(self.float()?)
     }
 
-    /// A whole number from `low` to `high`; above `high` the code is `too-large`.
+    /// A whole number that passes [`Path::whole`].
     ///
     /// # Errors
-    /// As [`Node::number`], `out-of-range`, `too-large`.
+    /// `wrong-type`, and those of [`Path::whole`].
     pub fn whole(&self, low: usize, high: usize) -> Result<usize> {
-        let x = self.number()?;
-        let must = || format!("must be a whole number from {low} to {high}");
-        if x.fract() != 0.0 || x < low as f64 {
-            return Err(self.error(Code::OutOfRange, &must()));
-        }
-        if x > high as f64 {
-            return Err(self.error(Code::TooLarge, &must()));
-        }
-        Ok(x as usize)
+        self.path.whole(self.float()?, low, high)
     }
 
     /// A number that [`Value::exact`] wrote.
@@ -294,15 +292,14 @@ impl<'a> Node<'a> {
     /// `wrong-type`.
     pub fn exact(&self) -> Result<f64> {
         match self.value {
-            Value::Number(x) => Ok(*x),
             Value::Text(s) => match s.as_str() {
                 "-0" => Ok(-0.0),
                 "NaN" => Ok(f64::NAN),
                 "Infinity" => Ok(f64::INFINITY),
                 "-Infinity" => Ok(f64::NEG_INFINITY),
-                _ => Err(self.error(Code::WrongType, "must be a number")),
+                _ => self.float(),
             },
-            _ => Err(self.error(Code::WrongType, "must be a number")),
+            _ => self.float(),
         }
     }
 
@@ -348,11 +345,9 @@ impl<'a> Node<'a> {
     /// `wrong-type`.
     pub fn items(&self) -> Result<impl ExactSizeIterator<Item = Node<'_>>> {
         match self.value {
-            Value::List(items) => Ok(items.iter().enumerate().map(move |(i, value)| Node {
-                value,
-                parent: Some(self),
-                step: Step::Index(i),
-            })),
+            Value::List(items) => {
+                Ok(items.iter().enumerate().map(move |(i, value)| Node { value, path: self.path.index(i) }))
+            }
             _ => Err(self.error(Code::WrongType, "must be a list")),
         }
     }
