@@ -88,7 +88,7 @@ fn full(json: &Json) -> Vec<f64> {
 fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
     let given = value(from);
     Ok(match base {
-        "scenario" | "pointing" => Box::new(Predictor::new(&Scenario::from_value(&given)?)?),
+        "scenario" | "pointing" => Box::new(Predictor::new(&Scenario::from_value(&given)?)),
         "snapshot" => Box::new(Predictor::restore(&given)?),
         "sequence" => Box::new(ConditionallyMarkovSequence::new(&given)?),
         "parameters" => Box::new(ConditionallyMarkovSequence::from_parameters(&given)?),
@@ -102,7 +102,7 @@ fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
             };
             let targets: Vec<PointerTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
             let options = PointerOptions { none: from["options"]["none"].as_f64().unwrap() };
-            Box::new(Predictor::new(&pointer_scenario(&targets, options)?)?)
+            Box::new(Predictor::new(&pointer_scenario(&targets, options)?))
         }
         other => panic!("no base {other}"),
     })
