@@ -1,8 +1,9 @@
-// What both registries are told of the package, and what their pages show of it.
+// What both registries are given of the package, and what their pages show of it.
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join, posix } from "node:path";
+import { versions, warnings } from "../../scripts/release.mjs";
 import { capture, root } from "../../scripts/run.mjs";
 import { project } from "./support.mjs";
 
@@ -51,9 +52,25 @@ test("what README and the other pages link to is in what is published", async (t
   });
 });
 
-test("both registries are told the same", () => {
-  const { name, version, license } = crate;
-  assert.deepEqual({ name, version, license }, { name: npm.name, version: npm.version, license: npm.license });
+test("every file has the same version", () => {
+  const found = versions();
+  assert.deepEqual(Object.keys(found).filter((file) => found[file] !== crate.version), []);
+});
+
+test("npm would publish it without a warning", async () => {
+  const { code, output } = await capture("npm", ["publish", "--dry-run", "--ignore-scripts"]);
+  assert.equal(code, 0, output);
+  assert.deepEqual(warnings(output), []);
+});
+
+test("warnings are found in what the registries' clients print", () => {
+  const found = ["npm warn publish npm auto-corrected some errors in your package.json", "warning: manifest has no license"];
+  assert.deepEqual(warnings(["npm notice whither", ...found, "warning: aborting upload due to dry run"].join("\n")), found);
+});
+
+test("both registries are given the same", () => {
+  const { name, license } = crate;
+  assert.deepEqual({ name, license }, { name: npm.name, license: npm.license });
   const address = (repository) => (repository?.url ?? repository ?? null)?.replace(/^git\+|\.git$/g, "") ?? null;
   assert.equal(address(npm.repository), address(crate.repository));
   assert.equal(npm.homepage ?? null, crate.homepage);
@@ -61,9 +78,9 @@ test("both registries are told the same", () => {
 
 test("docs.rs shows every feature that is for Rust", () => {
   const shown = crate.metadata.docs.rs.features;
-  const forRust = Object.keys(crate.features).filter((name) => name !== "default" && !name.startsWith("wasm"));
+  const forRust = Object.keys(crate.features).filter((name) => !name.startsWith("wasm"));
   const also = (name) => [name, ...crate.features[name].filter((item) => item in crate.features).flatMap(also)];
-  const all = new Set([...crate.features.default, ...shown].flatMap(also));
+  const all = new Set(shown.flatMap(also));
   assert.deepEqual(forRust.filter((name) => !all.has(name)), []);
 });
 
