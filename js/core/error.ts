@@ -1,20 +1,20 @@
 /**
- * What kind of thing is wrong. These strings are part of the interface: code may depend on them.
+ * The kind of an error. These strings are part of the interface: code may depend on them.
  *
  * | code | means |
  * |---|---|
- * | `unknown-key` | an object has a key that nothing reads |
+ * | `unknown-key` | an object has a key that is not legal there |
  * | `missing-key` | a key that has no default is absent |
- * | `wrong-type` | a value is not of the type that is read there |
- * | `wrong-length` | a list or matrix has not the length that is read there |
+ * | `wrong-type` | a value has another type than is legal there |
+ * | `wrong-length` | a list or matrix has another length than is legal there |
  * | `not-finite` | a number is NaN or infinite |
  * | `out-of-range` | a number or word is outside what is legal |
  * | `not-positive-definite` | a covariance is not symmetric positive definite |
  * | `duplicate-id` | two destinations have the same id |
  * | `unknown-id` | no destination has this id |
  * | `no-destinations` | there must be at least one destination |
- * | `time-not-increasing` | a time lies before the last observation's |
- * | `method-accumulates` | the method accumulates evidence for each destination, so it cannot do this in mid-movement |
+ * | `time-not-increasing` | a time is before the last observation's |
+ * | `method-accumulates` | the method accumulates evidence for each destination, so it cannot do this in the middle of a movement |
  * | `too-large` | more than the stated limit |
  * | `bad-snapshot` | a snapshot is damaged or from another version |
  * | `freed` | the object was freed |
@@ -54,15 +54,15 @@ export type ErrorCode =
  */
 export class WhitherError extends Error {
   override readonly name = "WhitherError";
-  /** What kind of thing is wrong. */
+  /** The kind of the error. */
   readonly code: ErrorCode;
   /** The field it is about, such as `destinations[3].covariance`; empty where it is about no field. */
   readonly path: string;
 
   /**
-   * @param code - What kind of thing is wrong.
+   * @param code - The kind of the error.
    * @param path - The field it is about, or an empty string.
-   * @param message - The value and what is legal. The error's own `message` is this behind the path.
+   * @param message - The value and what is legal. The error's own `message` is the path, a colon and this.
    * @param options - The error that caused this one.
    */
   constructor(code: ErrorCode, path: string, message: string, options?: { cause?: unknown }) {

@@ -1,5 +1,5 @@
 /**
- * The end of what lives in WebAssembly's memory.
+ * Freeing objects that live in WebAssembly's memory.
  *
  * @module
  */
@@ -11,6 +11,6 @@ export function freed(what: string): never {
 }
 
 /**
- * The name of the method that `using` calls: `Symbol.dispose`, or where an engine does not have it yet, a name that nobody knows.
+ * The name of the method that `using` calls: `Symbol.dispose`, or a private symbol in an engine that does not have it yet.
  */
 export const dispose: typeof Symbol.dispose = (Symbol.dispose as typeof Symbol.dispose | undefined) ?? (Symbol() as never);

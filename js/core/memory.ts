@@ -1,21 +1,21 @@
 /**
- * Memory is asked for before a call that takes some: WebAssembly that runs out of it in the middle stops where it is, and the
- * object that was used is lost.
+ * Memory is reserved before a call that allocates: WebAssembly that runs out of it in the middle stops there, and the object
+ * that was used is lost.
  *
  * @module
  */
 import { WhitherError } from "#error";
-import { reserve_memory, memory, type Engine } from "./loading/instance.js";
+import { memory, reserve_memory, type Engine } from "./loading/instance.js";
 import { MOST_VALUES, plainCopy } from "./plain.js";
 
-/** What any call may take without asking, in bytes. */
+/** What any call may allocate without reserving it, in bytes. */
 const SMALL = 2 ** 20;
 
-/** Memory up to here is had wherever there is WebAssembly. */
+/** Memory up to this size is available wherever WebAssembly is. */
 const ALWAYS = 64 * SMALL;
 
 /**
- * Asks for so many bytes.
+ * Reserves so many bytes.
  *
  * @throws {@link WhitherError} `too-large`.
  */
@@ -25,37 +25,37 @@ export function reserve(bytes: number): void {
   throw new WhitherError("too-large", "", `this may take ${much}, more than is left: free() what is not needed any more`);
 }
 
-/** Whether so much memory is taken that even what is small has to be asked for. */
+/** Whether so much memory is in use that even a small allocation has to be reserved. */
 export function isScarce(): boolean {
   return memory().byteLength > ALWAYS / 2;
 }
 
 /**
- * A plain copy of what a user gave, for WebAssembly, which has the memory for it.
+ * A plain copy of a user's value, for WebAssembly, with the memory for it reserved.
  *
- * @param value - What a user gave.
- * @param name - What every path in an error begins with; nothing for a scenario.
- * @param times - How often all of it is there at once.
+ * @param value - A user's value.
+ * @param name - The beginning of every path in an error; empty for a scenario.
+ * @param times - How many copies WebAssembly holds at once.
  */
 export function copyIn(value: unknown, name = "", times = 1): unknown {
   return plainCopy(value, name, (bytes) => reserve(times * bytes));
 }
 
-/** Bounds of what a predictor takes, in bytes. */
+/** Upper bounds of what a predictor allocates, in bytes. */
 export interface Bounds {
-  /** A movement; and once more when its last arrival time passes. */
+  /** For a movement; and once more when its last arrival time passes. */
   readonly movement: number;
-  /** An answer: a state, an arrival time. */
+  /** For an answer: a state, an arrival time. */
   readonly answer: number;
-  /** A change of its destinations. */
+  /** For a change of its destinations. */
   readonly change: number;
-  /** The list of its ids. */
+  /** For the list of its ids. */
   readonly ids: number;
-  /** A snapshot. */
+  /** For a snapshot. */
   readonly snapshot: number;
 }
 
-/** The factors were measured with every method, motion model and kind of destination; tests/js/room.test.mjs holds them. */
+/** The factors are measured, with every method, motion model and kind of destination; tests/js/short-memory.test.mjs checks them. */
 export function bounds(engine: Engine): Bounds {
   const [count = 0, text = 0, pairs = 0, nodes = 0, kept = 0, saved = 0] = engine.sizes();
   const movement = 4096 + 24 * kept + 128 * nodes + 256 * count;

@@ -1,5 +1,5 @@
 /**
- * Options: objects whose every key is read by someone. What is given beside them, or in their place, is an error and not ignored.
+ * Options: an unknown key, or a value of another kind, is an error rather than ignored.
  *
  * @module
  */
@@ -7,8 +7,7 @@ import { WhitherError } from "#error";
 import { isList } from "./plain.js";
 
 /**
- * Refuses what is no object, and keys that nothing reads. Nothing at all is as good as no options, `undefined` under a key as good
- * as no key.
+ * Checks that options are an object with legal keys alone. They may be `undefined` or `null`; a key may be `undefined`.
  *
  * @throws {@link WhitherError} `wrong-type`, `unknown-key`.
  */
@@ -24,7 +23,7 @@ export function checkOptions(options: unknown, legal: readonly string[]): void {
   }
 }
 
-/** How an error quotes a value: as those of `src/value.rs` do. */
+/** A value as errors quote it, the same as in `src/value.rs`. */
 function quoted(value: unknown): string {
   if (typeof value === "string") return `"${value.length > 40 ? `${value.slice(0, 40)}...` : value}"`;
   if (typeof value === "number" || typeof value === "boolean") return String(value);

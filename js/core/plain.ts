@@ -1,8 +1,8 @@
 /**
- * Plain copies of what users give: how scenarios, destinations and snapshots enter WebAssembly.
+ * Plain copies of users' values: how scenarios, destinations and snapshots enter WebAssembly.
  *
  * All of a user's object is read here, before WebAssembly is entered: a getter or a proxy may throw or call back into
- * a predictor, and neither may happen while Rust code is on the stack. What crosses is read there by serde.
+ * a predictor, and neither may happen while Rust code is on the stack. `src/wasm/data.rs` reads the copy.
  *
  * @module
  */
@@ -16,16 +16,16 @@ const MOST_TEXT = 1 << 26;
 const DEEPEST = 24;
 
 /**
- * Copies all of `value`. `undefined` in an object is as good as absent, in a list it is `null`; typed arrays become lists.
+ * Copies `value` deeply. A key that is `undefined` is left out, an item that is becomes `null`; typed arrays become lists.
  *
- * @param value - What a user gave.
- * @param name - What every path in an error begins with; nothing for a scenario.
- * @param ask - Is told a bound of the bytes that the copy takes in WebAssembly, with what is made of it.
+ * @param value - A user's value.
+ * @param name - The beginning of every path in an error; empty for a scenario.
+ * @param reserve - Called with a bound of the bytes that the copy, and what is built from it, take in WebAssembly.
  */
-export function plainCopy(value: unknown, name: string, ask: (bytes: number) => void): unknown {
+export function plainCopy(value: unknown, name: string, reserve: (bytes: number) => void): unknown {
   const copier = new Copier(name);
   const copied = copier.copy(value);
-  ask(copier.bytes);
+  reserve(copier.bytes);
   return copied;
 }
 
@@ -107,7 +107,7 @@ class Copier {
   }
 }
 
-/** Whether `value` crosses as a list. */
+/** Whether `value` is copied as a list. */
 export function isList(value: unknown): value is ArrayLike<unknown> {
   // of all views, a DataView alone has no length; its class may be another realm's
   return Array.isArray(value) || (ArrayBuffer.isView(value) && "length" in value);

@@ -18,10 +18,10 @@ const ONE = 2 ** 23;
  */
 export type Position = ArrayLike<number | null | undefined>;
 
-/** What belongs to one observation. */
+/** Options of one observation. */
 export interface ObserveOptions {
   /**
-   * The noise of this one observation in place of the scenario's `observation.noise`, in the same forms: a deviation, one for
+   * The noise of this one observation instead of the scenario's `observation.noise`, in the same forms: a deviation, one for
    * each axis, or a covariance matrix.
    */
   readonly noise?: number | Vector | Matrix | undefined;
@@ -56,7 +56,7 @@ export interface Remaining {
   readonly high: number;
 }
 
-/** All that a predictor knows, as plain JSON. It is for {@link Predictor.restore} to read. */
+/** The state of a predictor, as plain JSON, for {@link Predictor.restore}. */
 export interface Snapshot {
   /** The version of the snapshot's form. */
   readonly version: number;
@@ -66,7 +66,7 @@ export interface Snapshot {
 /**
  * Predicts the destination of one moving thing from its positions.
  *
- * Everything here that can fail throws a {@link WhitherError}, and leaves the predictor as it was. After {@link free} every use
+ * Everything that can fail throws a {@link WhitherError} and leaves the predictor unchanged. After {@link free} every use
  * throws with the code `freed`.
  *
  * @example
@@ -90,23 +90,23 @@ export interface Snapshot {
 export class Predictor {
   #engine: Engine | null;
   #view = new Float64Array(0);
-  /** Whether a movement has begun, and a bound of the memory that it takes. */
-  #moves = false;
+  /** Whether the memory for a movement is reserved, and a bound of it. */
+  #reserved = false;
   #movement = 0;
 
   /**
-   * @param scenario - The whole configuration. It is copied: changing the object later changes nothing.
+   * @param scenario - The configuration. It is copied: changing the object later changes nothing.
    * @throws {@link WhitherError} with the path of the field where the scenario is bad; `not-initialised` before `init()`.
    */
   constructor(scenario: Scenario) {
     loaded();
-    // Only `adopt` has an engine to hand in: users never meet one.
+    // only `adopt` passes an engine: users have none
     const given: unknown = scenario;
     this.#engine = given instanceof Engine ? given : new Engine(copyIn(given));
   }
 
   /**
-   * Takes in one observation.
+   * Corrects the state by one observation.
    *
    * Equal times are legal. With the method `pointing` an observation at the time of the last one replaces it, in the axes that it
    * has, and at the first time the movement begins with it: rounded clocks and events stamped by the frame give several places
@@ -114,13 +114,13 @@ export class Predictor {
    *
    * @param time - Seconds, at least the last observation's.
    * @param position - A number for each observed axis; `null` or `undefined` for one that is missing.
-   * @param options - What belongs to this observation alone.
+   * @param options - Options of this observation alone.
    * @throws {@link WhitherError} `time-not-increasing`, `wrong-type`, `wrong-length`, `not-finite`, `not-positive-definite`,
    * `unknown-key`. The state is then what it was, and the next good observation works.
    */
   observe(time: number, position: Position, options?: ObserveOptions): void {
     if (options !== undefined) checkOptions(options, ["noise"]);
-    // The way of nearly all observations allocates nothing; the other reads everything, and finds what is wrong with it.
+    // Nearly all observations take this path, which allocates nothing; the other validates everything.
     const noise = options?.noise;
     const count = position?.length;
     if (typeof time === "number" && (count === 1 || count === 2 || count === 3) && noise === undefined) {
@@ -128,19 +128,19 @@ export class Predictor {
       const y = count > 1 ? position[1] : 0;
       const z = count > 2 ? position[2] : 0;
       if (typeof x === "number" && typeof y === "number" && typeof z === "number") {
-        this.#moving().observe(time, count, x, y, z);
+        this.#observing().observe(time, count, x, y, z);
         return;
       }
     }
     const list = !isList(position) && typeof position === "object" && count <= MOST_ITEMS;
     const observation = copyIn({ time, position: list ? Array.from(position) : position, noise });
-    this.#moving().observe_in_full(observation);
+    this.#observing().observe_in_full(observation);
   }
 
   /**
    * The probability of each destination, in the order of {@link destinations}. They sum to `1 - none`; before the first
    * observation, and after it alone unless its evidence counts (`initial.evidence`), they are the prior. Of 4096 destinations
-   * and more, `pseudoObservation` gives 0 for those that together have less than 1e-14.
+   * and more, `pseudoObservation` returns 0 for those that together have less than 1e-14.
    *
    * @param into - Where to write them, so that nothing is allocated: as long as there are destinations.
    * @returns `into`, or a new array.
@@ -148,7 +148,7 @@ export class Predictor {
    */
   probabilities(into?: Float64Array): Float64Array {
     const engine = this.#live();
-    return copy(this.#look(engine, engine.probabilities()), into);
+    return copy(this.#viewAt(engine, engine.probabilities()), into);
   }
 
   /** The probability that the object goes to none of the destinations: 0 unless the scenario has a `none`. */
@@ -172,7 +172,7 @@ export class Predictor {
    */
   logLikelihoods(into?: Float64Array): Float64Array {
     const engine = this.#live();
-    return copy(this.#look(engine, engine.log_likelihoods()), into);
+    return copy(this.#viewAt(engine, engine.log_likelihoods()), into);
   }
 
   /**
@@ -184,7 +184,7 @@ export class Predictor {
    */
   arrival(id?: string): ArrivalTime | null {
     const given = copyIn({ id });
-    const numbers = this.#asked("answer").arrival(given);
+    const numbers = this.#withMemory("answer").arrival(given);
     if (numbers === undefined) return null;
     const nodes = (numbers.length - 2) / 2;
     return {
@@ -195,9 +195,9 @@ export class Predictor {
     };
   }
 
-  /** How long it takes until the object enters its target; null before that can be said. */
+  /** How long it takes until the object enters its target; null before that can be computed. */
   get remaining(): Remaining | null {
-    const numbers = this.#asked("answer").remaining();
+    const numbers = this.#withMemory("answer").remaining();
     if (numbers === undefined) return null;
     const [mean, low, high] = numbers as unknown as [number, number, number];
     return { mean, low, high };
@@ -212,7 +212,7 @@ export class Predictor {
 
   /** The ids of the destinations, in the order of {@link probabilities}. */
   get destinations(): string[] {
-    return this.#asked("ids").ids();
+    return this.#withMemory("ids").ids();
   }
 
   /**
@@ -223,13 +223,13 @@ export class Predictor {
    * @returns null before the first observation.
    */
   state(): Gaussian | null {
-    const numbers = this.#asked("answer").state();
+    const numbers = this.#withMemory("answer").state();
     return numbers ? gaussian(numbers) : null;
   }
 
   /** The state at the first observation, given all that came since; null before it. */
   initialState(): Gaussian | null {
-    const numbers = this.#asked("answer").initial_state();
+    const numbers = this.#withMemory("answer").initial_state();
     return numbers ? gaussian(numbers) : null;
   }
 
@@ -243,7 +243,7 @@ export class Predictor {
    */
   forecast(time: number): Gaussian | null {
     const given = copyIn({ time });
-    const numbers = this.#asked("answer").forecast(given);
+    const numbers = this.#withMemory("answer").forecast(given);
     return numbers ? gaussian(numbers) : null;
   }
 
@@ -257,7 +257,7 @@ export class Predictor {
    */
   path(id: string, times: Vector): Float64Array {
     const given = copyIn({ id, times });
-    return this.#asked("answer", 1, 64 * (times?.length ?? 0)).path(given);
+    return this.#withMemory("answer", 1, 64 * (times?.length ?? 0)).path(given);
   }
 
   /**
@@ -268,11 +268,11 @@ export class Predictor {
    */
   addDestination(destination: Destination): void {
     const given = copyIn({ destination });
-    this.#asked("change", 1, ONE).add_destination(given);
+    this.#withMemory("change", 1, ONE).add_destination(given);
   }
 
   /**
-   * Replaces one destination: its place, size, prior. It keeps its place in the order.
+   * Replaces one destination: its position, size, prior. It keeps its index.
    *
    * @param id - The destination that is replaced.
    * @param destination - What it is from now on; its `id` may be left out.
@@ -280,7 +280,7 @@ export class Predictor {
    */
   updateDestination(id: string, destination: Omit<Destination, "id"> & { readonly id?: string }): void {
     const given = copyIn({ id, destination });
-    this.#asked("change", 1, ONE).update_destination(given);
+    this.#withMemory("change", 1, ONE).update_destination(given);
   }
 
   /**
@@ -290,44 +290,44 @@ export class Predictor {
    */
   removeDestination(id: string): void {
     const given = copyIn({ id });
-    this.#asked("change").remove_destination(given);
+    this.#withMemory("change").remove_destination(given);
   }
 
   /**
    * Sets all destinations at once, in one crossing into WebAssembly: for icons that move and lists that scroll. Those whose id
-   * stays keep what is known of them.
+   * stays keep their evidence and learnt prior.
    *
    * @throws {@link WhitherError} as {@link addDestination} does.
    */
   setDestinations(destinations: readonly Destination[]): void {
     const given = copyIn({ destinations });
-    this.#asked("change", 1 + (destinations?.length ?? 0) / this.#live().len()).set_destinations(given);
+    this.#withMemory("change", 1 + (destinations?.length ?? 0) / this.#live().len()).set_destinations(given);
   }
 
   /** Begins a new movement with the same scenario and the destinations as they are now. */
   reset(): void {
     this.#live().reset();
-    this.#moves = false;
+    this.#reserved = false;
   }
 
   /**
-   * Tells what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not. The
+   * Records the selection: counted where the scenario has `learning`, without effect where it does not. The
    * priors that are learnt hold from now on; {@link snapshot} keeps them.
    *
    * @throws {@link WhitherError} `unknown-id`.
    */
   chosen(id: string): void {
     const given = copyIn({ id });
-    this.#asked("change").chosen(given);
+    this.#withMemory("change").chosen(given);
   }
 
   /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */
   clone(): Predictor {
-    return adopt(this.#asked("change").duplicate());
+    return adopt(this.#withMemory("change").duplicate());
   }
 
   /**
-   * All that the predictor knows, as plain JSON.
+   * The state of the predictor, as plain JSON.
    *
    * @example
    * ```ts
@@ -336,7 +336,7 @@ export class Predictor {
    * ```
    */
   snapshot(): Snapshot {
-    return this.#asked("snapshot").snapshot() as Snapshot;
+    return this.#withMemory("snapshot").snapshot() as Snapshot;
   }
 
   /**
@@ -350,7 +350,7 @@ export class Predictor {
   }
 
   /**
-   * Gives the memory back. What is not freed is freed when it is garbage-collected, at a time that nobody knows.
+   * Frees its memory. A predictor that is not freed is freed when it is garbage-collected, at an unknown time.
    *
    * @throws {@link WhitherError} `freed`, where that was done before.
    */
@@ -368,28 +368,28 @@ export class Predictor {
     return this.#engine ?? freed("predictor");
   }
 
-  /** The engine, which has the memory for an observation: a movement takes some when it begins, and when its last time passes. */
-  #moving(): Engine {
+  /** The engine, with memory reserved for an observation: a movement allocates when it begins, and when its last node passes. */
+  #observing(): Engine {
     const engine = this.#live();
-    if (this.#moves && !isScarce()) return engine;
-    if (!this.#moves) this.#movement = bounds(engine).movement;
+    if (this.#reserved && !isScarce()) return engine;
+    if (!this.#reserved) this.#movement = bounds(engine).movement;
     reserve(this.#movement);
-    this.#moves = true;
+    this.#reserved = true;
     return engine;
   }
 
-  /** The engine, which has the memory for what follows, `times` as much as with the destinations it has, and so many bytes. */
-  #asked(what: keyof Bounds, times = 1, more = 0): Engine {
+  /** The engine, with memory reserved: `times` the bound with the present destinations, and so many bytes `more`. */
+  #withMemory(what: keyof Bounds, times = 1, more = 0): Engine {
     const engine = this.#live();
     const bound = bounds(engine);
     reserve(times * bound[what] + more);
-    // a change of destinations is a change of what a movement takes
+    // with other destinations a movement needs another amount
     this.#movement = times * bound.movement;
     return engine;
   }
 
-  /** One number for each destination, at `address` in the module's memory: good until the next call into it. */
-  #look(engine: Engine, address: number): Float64Array {
+  /** One number for each destination, at `address` in the module's memory: valid until the next call into it. */
+  #viewAt(engine: Engine, address: number): Float64Array {
     const buffer = memory();
     const length = engine.len();
     const view = this.#view;

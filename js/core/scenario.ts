@@ -29,7 +29,7 @@ export interface Scenario {
   readonly motion: Motion;
   /** How it is observed. */
   readonly observation: Observation;
-  /** What is known of it before the first observation. */
+  /** The density of its state before the first observation. */
   readonly initial?: Initial | undefined;
   /** When it arrives: needed by every method but `pointing`, which does not take it. */
   readonly arrival?: Arrival | undefined;
@@ -56,7 +56,7 @@ export interface Learning {
   /**
    * How many choices the habit at large is worth against the habit after the last choice.
    *
-   * @defaultValue the last choice is not regarded
+   * @defaultValue the last choice is ignored
    */
   readonly afterLast?: number | undefined;
 }
@@ -183,7 +183,7 @@ export interface Observation {
 }
 
 /**
- * The density of the state at the first observation, before that observation is taken in: any Gaussian, or flat in position with
+ * The density of the state at the first observation, before correction by that observation: any Gaussian, or flat in position with
  * a zero-mean velocity and acceleration.
  */
 export type Initial =
@@ -194,9 +194,9 @@ export type Initial =
       readonly covariance: Matrix;
       /**
        * Whether the first observation counts as evidence, `p(y_1 | D_i, T)` in Liang (5): the likelihoods are then those of `y_1:k`, and
-       * a start near a destination speaks for it, from the first observation on. With `bridging` and `singleFilter`, whose endpoint
-       * is independent of the start, it speaks for none. By default the likelihoods are those of `y_2:k` given `y_1`: where a
-       * movement begins is mostly chance, and a density that is flat in position has no evidence to give.
+       * a start near a destination is evidence for it, from the first observation on. With `bridging` and `singleFilter`, whose endpoint
+       * is independent of the start, it is evidence for none. By default the likelihoods are those of `y_2:k` given `y_1`: where a
+       * movement begins is mostly chance, and a density that is flat in position gives no evidence.
        *
        * @defaultValue false
        */
@@ -251,7 +251,7 @@ export interface Quadrature {
   readonly rule?: "simpson" | "trapezoid" | "gaussLegendre" | "monteCarlo" | undefined;
   /** The number of nodes, up to 1001; odd for `simpson`. @defaultValue 15 */
   readonly points?: number | undefined;
-  /** For `monteCarlo`: where its random numbers begin. */
+  /** For `monteCarlo`: the seed of its random numbers. */
   readonly seed?: number | undefined;
 }
 
@@ -261,7 +261,7 @@ export interface DestinationBase {
   readonly id: string;
   /** Its weight before any observation; only the ratios matter. @defaultValue 1 */
   readonly prior?: number | undefined;
-  /** An arrival prior of its own in place of the scenario's. */
+  /** An arrival prior of its own instead of the scenario's. */
   readonly arrival?: Arrival | undefined;
 }
 
@@ -309,7 +309,7 @@ export interface Pointing {
     /** How the median changes with the speed: as this power of it. */
     readonly speedExponent: number;
   };
-  /** What the place of the start alone says: a density that falls with this power of the distance. */
+  /** The evidence of the starting position: a density that falls with this power of the distance. */
   readonly start: {
     readonly exponent: number;
     /** Where it stops growing towards the start, in px. */
@@ -317,7 +317,7 @@ export interface Pointing {
     /** The radius over which it sums to one, in px. */
     readonly reach: number;
   };
-  /** What the direction from the start says. */
+  /** The evidence of the direction from the start. */
   readonly direction: {
     readonly power: number;
     /** Angles in radians. */
@@ -338,8 +338,8 @@ export interface Pointing {
   /** How near counts as there: as a share of the target's sides. */
   readonly near: number;
   /**
-   * The distance from the start within which a pointer comes to count as resting where it was first observed: what the start says of
-   * the targets then fades, and the one that it rests on grows likely. By the time `t` it should have come
+   * The distance from the start within which a pointer comes to count as resting where it was first observed: the evidence of the
+   * start then fades, and the target that it rests on grows likely. By the time `t` it should have come
    * `restDistance (1 - power.time / t)^2`. 0: it never rests.
    *
    * @defaultValue 0; `pointerScenario` sets 45

@@ -8,7 +8,7 @@ import type { Matrix, Motion, Observation, Vector } from "./scenario.js";
 
 /** A sequence that is induced by a motion model, from an origin to a destination, by way of waypoints if there are any. */
 export interface SequenceParameters {
-  /** How it would move if nothing were known of where it is going. */
+  /** How it would move if its destination were unknown. */
   readonly motion: Motion;
   /** The length of each step in seconds: one number, or one for each of the `steps`. */
   readonly timeStep: number | Vector;
@@ -24,7 +24,7 @@ export interface SequenceParameters {
   readonly observation: Observation;
 }
 
-/** A sequence that is given matrix by matrix: `x_k = previous x_{k-1} + destination x_N + offset + e`. */
+/** The parameters of a sequence, matrix by matrix: `x_k = previous x_{k-1} + destination x_N + offset + e`. */
 export interface GivenSequence {
   /** `G_{k,k-1}` for each step from 1 to `N - 1`, `s` by `s`. */
   readonly previous: readonly Matrix[];
@@ -34,7 +34,7 @@ export interface GivenSequence {
   readonly offset?: readonly Vector[] | undefined;
   /** `G_k`, the covariance of `e`, for each of these steps. */
   readonly covariance: readonly Matrix[];
-  /** The two ends: `x_N`, and `x_0 = originMean + gain (x_N - destinationMean) + e_0`. */
+  /** The two endpoints: `x_N`, and `x_0 = originMean + gain (x_N - destinationMean) + e_0`. */
   readonly boundary: {
     /** @defaultValue 0 */
     readonly originMean?: Vector | undefined;
@@ -68,7 +68,7 @@ export interface StepModel {
 /**
  * A conditionally Markov sequence (Rezaie and Li): a movement whose origin and destination have a known joint density.
  *
- * Everything here that can fail throws a {@link WhitherError}, and leaves the sequence as it was. After {@link free} every use
+ * Everything that can fail throws a {@link WhitherError} and leaves the sequence unchanged. After {@link free} every use
  * throws with the code `freed`.
  *
  * @example
@@ -91,18 +91,18 @@ export class ConditionallyMarkovSequence {
   #measured = 0;
 
   /**
-   * @param parameters - The whole sequence. It is copied: changing the object later changes nothing.
+   * @param parameters - The sequence. It is copied: changing the object later changes nothing.
    * @throws {@link WhitherError} with the path of the field where something is bad; `not-initialised` before `init()`.
    */
   constructor(parameters: SequenceParameters) {
     loaded();
-    // Only `adopt` has an engine to hand in: users never meet one.
+    // only `adopt` passes an engine: users have none
     const given: unknown = parameters;
     this.#engine = given instanceof SequenceEngine ? given : new SequenceEngine(copyIn(given));
   }
 
   /**
-   * A sequence that is given matrix by matrix.
+   * A sequence from its parameters, matrix by matrix.
    *
    * @throws {@link WhitherError} as the constructor does.
    */
@@ -130,7 +130,7 @@ export class ConditionallyMarkovSequence {
   }
 
   /**
-   * Takes in one measurement. Steps may be skipped, and measured twice.
+   * Corrects the state by one measurement. Steps may be skipped, and measured twice.
    *
    * @param step - Which state was measured: no earlier one than the last.
    * @param position - A number for each measured axis.
@@ -138,8 +138,8 @@ export class ConditionallyMarkovSequence {
    */
   measure(step: number, position: Vector): void {
     const given = copyIn({ step, position });
-    // the list of measurements, which from time to time is moved to where there is twice the room
-    this.#asked(256 * ++this.#measured).measure(given);
+    // the list of measurements, which doubles its capacity when it is full
+    this.#withMemory(256 * ++this.#measured).measure(given);
   }
 
   /**
@@ -150,7 +150,7 @@ export class ConditionallyMarkovSequence {
    */
   state(step: number): Gaussian {
     const given = copyIn({ step });
-    return gaussian(this.#asked().state(given));
+    return gaussian(this.#withMemory().state(given));
   }
 
   /** The state at the end, given all measurements so far. */
@@ -158,16 +158,16 @@ export class ConditionallyMarkovSequence {
     return gaussian(this.#live().destination());
   }
 
-  /** Forgets all measurements. */
+  /** Removes all measurements. */
   reset(): void {
     this.#live().reset();
     this.#measured = 0;
   }
 
   /**
-   * Draws whole sequences. Measurements have no influence.
+   * Draws sequences from the prior: measurements have no influence.
    *
-   * @param options - `seed`: a whole number below 2^32, the same one gives the same numbers; `count`: how many.
+   * @param options - `seed`: an integer from 0 to less than 2^32, the same one gives the same numbers; `count`: how many.
    * @returns `(steps + 1) * s` numbers for each, state by state.
    * @throws {@link WhitherError} `too-large` for more than 10 million numbers; `missing-key`, `unknown-key`, `out-of-range`.
    */
@@ -176,8 +176,8 @@ export class ConditionallyMarkovSequence {
     const given = copyIn(options ?? {});
     const engine = this.#live();
     const length = (engine.steps() + 1) * engine.states();
-    // what is more than may be drawn is refused for that reason
-    this.#asked(16 * Math.min(1.5e7, (length + 4) * options?.count || 0));
+    // capped: more than may be drawn has an error of its own
+    this.#withMemory(16 * Math.min(1.5e7, (length + 4) * options?.count || 0));
     const numbers = engine.sample(given);
     return Array.from({ length: numbers.length / length }, (_, i) => numbers.slice(i * length, (i + 1) * length));
   }
@@ -190,7 +190,7 @@ export class ConditionallyMarkovSequence {
    */
   isReciprocal(tolerance?: number): boolean {
     const given = copyIn({ tolerance });
-    return this.#asked().is_reciprocal(given);
+    return this.#withMemory().is_reciprocal(given);
   }
 
   /**
@@ -200,11 +200,11 @@ export class ConditionallyMarkovSequence {
    */
   isMarkov(tolerance?: number): boolean {
     const given = copyIn({ tolerance });
-    return this.#asked().is_markov(given);
+    return this.#withMemory().is_markov(given);
   }
 
   /**
-   * Gives the memory back. What is not freed is freed when it is garbage-collected, at a time that nobody knows.
+   * Frees its memory. A sequence that is not freed is freed when it is garbage-collected, at an unknown time.
    *
    * @throws {@link WhitherError} `freed`, where that was done before.
    */
@@ -218,8 +218,8 @@ export class ConditionallyMarkovSequence {
     if (this.#engine) this.free();
   }
 
-  /** The engine, which has the memory for what follows, with so many bytes `more`. */
-  #asked(more = 0): SequenceEngine {
+  /** The engine, with memory reserved for a computation and so many bytes `more`. */
+  #withMemory(more = 0): SequenceEngine {
     const engine = this.#live();
     reserve(64 * engine.size() + more);
     return engine;

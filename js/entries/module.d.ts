@@ -1,6 +1,6 @@
 /**
- * A WebAssembly file of this package, as it is where an import of one gives a compiled module (Cloudflare Workers): for
- * `init({ wasm })` and `initSync({ module })`. Where a bundler makes an address of it, that too is for `init({ wasm })`.
+ * A WebAssembly file of this package where importing one gives a compiled module (Cloudflare Workers): for
+ * `init({ wasm })` and `initSync({ module })`. Where a bundler makes it an address, pass that to `init({ wasm })`.
  */
 declare const compiledModule: Compiled;
 export default compiledModule;

@@ -1,8 +1,8 @@
 /**
  * `whither/pointing`: `whither` for pointers on a screen alone, half as large. It has the method `pointing` and whatever
- * {@link pointerScenario} makes, with all that a {@link Predictor} tells, and neither the methods of the papers nor sequences.
+ * {@link pointerScenario} makes, with every answer of a {@link Predictor}, and neither the methods of the papers nor sequences.
  *
- * It has a WebAssembly file of its own, `whither/pointing.wasm`. Beside `whither` on one page each loads its own.
+ * It has a WebAssembly file of its own, `whither/pointing.wasm`. Together with `whither` on one page, each loads its own.
  *
  * @example
  * ```ts

@@ -20,8 +20,8 @@ export interface SlimInitOptions {
 /**
  * Loads the WebAssembly. Call it as often as you like: it loads once, and can be tried again after a failure.
  *
- * @param options - Where the WebAssembly is. Once it is loaded, or loading, that place is not looked at.
- * @throws {@link WhitherError} `wasm-unavailable` where it cannot be had or is not allowed here; `missing-key`, `wrong-type`,
+ * @param options - Where the WebAssembly is; ignored once it is loaded or loading.
+ * @throws {@link WhitherError} `wasm-unavailable` where it cannot be fetched or is not allowed; `missing-key`, `wrong-type`,
  * `unknown-key`.
  *
  * @example

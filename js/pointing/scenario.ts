@@ -16,7 +16,7 @@ export interface PointerTarget {
   readonly height: number;
 }
 
-/** What `pointerScenario` leaves to the application. */
+/** What the application chooses of a `pointerScenario`. */
 export interface PointerOptions {
   /** The prior probability that the pointer is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
   readonly none?: number | undefined;
@@ -27,7 +27,7 @@ export interface PointerOptions {
  * were measured on recorded movements.
  *
  * @param targets - What may be pointed at, by centre and size in px.
- * @param options - What to do otherwise.
+ * @param options - What the application chooses.
  * @throws {@link WhitherError} with the path of the field; `not-initialised` before `init()`.
  *
  * @example

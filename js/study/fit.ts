@@ -97,7 +97,7 @@ export async function fitWith<S extends Omit<Scenario, "destinations">>(
   const given = plainCopy({ ...others, tracks, scenario }, "", (needed) => void (bytes = 2 * needed));
   await load(source);
   if (!reserve_memory(bytes)) {
-    throw new WhitherError("too-large", "tracks", `may take ${Math.ceil(bytes / 2 ** 20)} MB of memory, more than there is`);
+    throw new WhitherError("too-large", "tracks", `may take ${Math.ceil(bytes / 2 ** 20)} MB of memory, more than is left`);
   }
   // Rust code is on the stack: what `progress` throws is kept until it has returned
   let thrown: { readonly error: unknown } | undefined;

@@ -71,7 +71,7 @@ impl Engine {
         Ok(self.predictor.observe_with(time, &position, noise.as_ref().map(Node::value))?)
     }
 
-    /// What there is much of.
+    /// The sizes by which `js/core/memory.ts` bounds what is allocated.
     pub fn sizes(&self) -> Vec<f64> {
         self.predictor.sizes().to_vec()
     }

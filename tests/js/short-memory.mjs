@@ -1,5 +1,5 @@
 // In a thread of its own: WebAssembly whose memory ends early, and everything that a predictor is asked while little is left of it.
-// Started by room.test.mjs with `{ scenario, megabytes }`; answers with what went wrong.
+// Started by short-memory.test.mjs with `{ scenario, megabytes }`; answers with what went wrong.
 import { parentPort, workerData } from "node:worker_threads";
 import { initSync, pointerScenario, Predictor } from "whither";
 import { limited } from "./limited.mjs";

@@ -1,5 +1,5 @@
 /**
- * `init` of the entries that have their WebAssembly inside.
+ * `init` of the entries that embed their WebAssembly.
  *
  * @module
  */
@@ -13,7 +13,7 @@ export type { InitOptions };
  * Loads the WebAssembly, alike in a browser, a worker, Node, Deno and Bun: nothing is fetched, the bytes are in the package.
  * Call it as often as you like: it loads once, two calls at once share one, and it can be tried again after a failure.
  *
- * @param options - Another place of the WebAssembly. Once it is loaded, or loading, that place is not looked at.
+ * @param options - Another source of the WebAssembly, ignored once it is loaded or loading.
  * @throws {@link WhitherError} `wasm-unavailable` where WebAssembly is not allowed: a page with a Content-Security-Policy needs
  * `'wasm-unsafe-eval'` in its `script-src`, and nothing else; `wrong-type` and `unknown-key` for the options.
  *

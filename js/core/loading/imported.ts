@@ -1,6 +1,6 @@
 /**
- * `init` of the entries for where code may not compile WebAssembly at run time (Cloudflare Workers): the module comes compiled, by
- * import.
+ * `init` of the entries for where code may not compile WebAssembly at run time (Cloudflare Workers): an import gives the
+ * compiled module.
  *
  * @module
  */

@@ -42,7 +42,8 @@ async function loadOnce(source: () => WasmSource): Promise<void> {
  * Loads the WebAssembly without waiting, for those who have compiled it already, or have its bytes where the thread may be
  * blocked. Does nothing where it is loaded.
  *
- * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm` (in `whither/pointing` of `whither/pointing.wasm`).
+ * @param options - `module`: a `WebAssembly.Module`, or the bytes of `whither/whither.wasm` (in `whither/pointing` of
+ * `whither/pointing.wasm`).
  * @throws {@link WhitherError} `wasm-unavailable`, `wrong-type`, `unknown-key`.
  */
 export function initSync(options: { module: CompiledModule | ArrayBuffer | ArrayBufferView }): void {

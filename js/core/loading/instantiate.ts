@@ -44,7 +44,7 @@ export function start<E extends object>(instance: WebAssembly.Instance, bindings
 /** A function that WebAssembly exports: it takes six values at most, and ignores those beyond its own. */
 type Call = (...values: [unknown, unknown, unknown, unknown, unknown, unknown]) => unknown;
 
-/** Memory is reserved before a call (`js/core/memory.ts`): where it runs out all the same, or the stack does, the error has a code too. */
+/** Memory is reserved before a call (`js/core/memory.ts`); where it runs out all the same, or the stack does, that is an error too. */
 function guarded(call: Call): Call {
   return (a, b, c, d, e, f) => {
     try {

@@ -24,7 +24,7 @@ class LazyEncoder {
   }
 }
 
-/** A `FinalizationRegistry`; where there is none, nothing is freed by itself. */
+/** A `FinalizationRegistry`; where the platform has none, only `free()` frees. */
 class LazyRegistry<T> {
   readonly #free: (held: T) => void;
   #real: globalThis.FinalizationRegistry<T> | undefined;

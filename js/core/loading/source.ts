@@ -1,16 +1,16 @@
 /**
- * From what a user names as the WebAssembly to a compiled module.
+ * From a user's source of the WebAssembly to a compiled module.
  *
  * @module
  */
 import { WhitherError } from "#error";
 
 /**
- * A compiled `WebAssembly.Module`. Named so plainly that the declarations need neither the DOM library nor Node's types.
+ * A compiled `WebAssembly.Module`: an `object` here, so that the declarations need neither the DOM library nor Node's types.
  */
 export type CompiledModule = object;
 
-/** What is read of a `Response`. */
+/** The parts of a `Response` that are read. */
 export interface ResponseLike {
   readonly ok: boolean;
   readonly status: number;
@@ -19,7 +19,7 @@ export interface ResponseLike {
   arrayBuffer(): Promise<ArrayBuffer>;
 }
 
-/** What is read of a `URL`. */
+/** The part of a `URL` that is read. */
 export interface UrlLike {
   readonly href: string;
 }
@@ -36,12 +36,12 @@ export type WasmSource = WasmLocation | PromiseLike<WasmLocation>;
 /**
  * The compiled module.
  *
- * @param source - Gives where it comes from; not asked where there is no WebAssembly.
+ * @param source - Returns the source; not called where the platform has no WebAssembly.
  * @throws {@link WhitherError} `wasm-unavailable`, where the address does not answer with WebAssembly, or WebAssembly is not
  * allowed here; `wrong-type` for anything that is no source.
  */
 export async function compile(source: () => WasmSource): Promise<WebAssembly.Module> {
-  possible();
+  checkPlatform();
   let given: WasmLocation;
   try {
     given = await source();
@@ -54,25 +54,25 @@ export async function compile(source: () => WasmSource): Promise<WebAssembly.Mod
   try {
     return await WebAssembly.compile(bytes);
   } catch (error) {
-    throw refused(error, bytes, what);
+    throw notCompiled(error, bytes, what);
   }
 }
 
 /** Compiles without waiting, for `initSync`. */
 export function compileNow(source: ArrayBuffer | ArrayBufferView | CompiledModule): WebAssembly.Module {
-  possible();
+  checkPlatform();
   if (isModule(source)) return source;
   if (!isBytes(source)) throw wrongType("module", "a WebAssembly.Module or its bytes");
   const [bytes, what] = checked(source, GIVEN);
   try {
     return new WebAssembly.Module(bytes);
   } catch (error) {
-    throw refused(error, bytes, what);
+    throw notCompiled(error, bytes, what);
   }
 }
 
-/** Asked before anything else: without WebAssembly, parts of the platform that are made with it end the process (Node's `fetch`). */
-function possible(): void {
+/** Checked first: without WebAssembly, parts of the platform that are built on it end the process (Node's `fetch`). */
+function checkPlatform(): void {
   for (const name of ["WebAssembly", "TextDecoder", "TextEncoder"] as const) {
     if (typeof globalThis[name] === "undefined") throw unavailable(`${name} does not exist here`);
   }
@@ -85,7 +85,7 @@ const GIVEN = "the given bytes";
 
 async function bytesOf(source: WasmLocation): Promise<Named> {
   if (isBytes(source)) return checked(source, GIVEN);
-  if (isResponse(source)) return answered(source, source.url || "the given response");
+  if (isResponse(source)) return bytesOfResponse(source, source.url || "the given response");
   const address = typeof source === "string" ? source : (source as Partial<UrlLike> | null | undefined)?.href;
   if (typeof address !== "string") {
     throw wrongType("wasm", "an address, a Response, the bytes or a WebAssembly.Module");
@@ -96,10 +96,10 @@ async function bytesOf(source: WasmLocation): Promise<Named> {
   } catch (error) {
     throw unavailable(`${address} cannot be fetched: ${reason(error)}`, error);
   }
-  return answered(response, address);
+  return bytesOfResponse(response, address);
 }
 
-async function answered(response: ResponseLike, address: string): Promise<Named> {
+async function bytesOfResponse(response: ResponseLike, address: string): Promise<Named> {
   if (!response.ok) throw unavailable(`${address} answered with status ${response.status}`);
   let bytes: ArrayBuffer;
   try {
@@ -134,8 +134,7 @@ function beginning(bytes: Uint8Array): string {
   return `begins with ${JSON.stringify(start.slice(0, 20))}`;
 }
 
-// Objects of another realm (a test runner's, an edge runtime's, another window's) are of other classes than this one's, so none is
-// asked for its class.
+// No `instanceof`: objects of another realm (a test runner's, an edge runtime's, another window's) are of other classes.
 
 function isModule(value: unknown): value is WebAssembly.Module {
   try {
@@ -154,8 +153,8 @@ function isResponse(value: unknown): value is ResponseLike {
   return typeof (value as Partial<ResponseLike> | null | undefined)?.arrayBuffer === "function";
 }
 
-/** Why these bytes do not compile: they are asked first, then the engine; where both are sound, it is the surroundings that refuse. */
-function refused(error: unknown, bytes: Uint8Array<ArrayBuffer>, what: string): WhitherError {
+/** Why these bytes do not compile: they are invalid, or the engine lacks SIMD, or else the surroundings do not allow it. */
+function notCompiled(error: unknown, bytes: Uint8Array<ArrayBuffer>, what: string): WhitherError {
   const why = reason(error);
   if (WebAssembly.validate(bytes)) {
     const policy = "a Content-Security-Policy needs 'wasm-unsafe-eval' in script-src, and nothing else";
@@ -171,7 +170,7 @@ function simd(): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(`\0asm\x01\0\0\0${sections}`, (character) => character.charCodeAt(0));
 }
 
-/** An error that says why WebAssembly cannot be loaded. */
+/** The error where WebAssembly cannot be loaded. */
 export function unavailable(message: string, cause?: unknown): WhitherError {
   return new WhitherError("wasm-unavailable", "", message, cause === undefined ? undefined : { cause });
 }
@@ -180,7 +179,7 @@ function wrongType(path: string, legal: string): WhitherError {
   return new WhitherError("wrong-type", path, `must be ${legal}`);
 }
 
-/** What an error says, of whatever realm it is. */
+/** The message of an error, of whatever realm it is. */
 export function reason(error: unknown): string {
   const message: unknown = (error as Partial<Error> | null | undefined)?.message;
   if (typeof message === "string") return message;

@@ -1,11 +1,11 @@
 /**
- * WebAssembly that is inside the package.
+ * WebAssembly that is embedded in the package.
  *
  * @module
  */
 import { reason, unavailable } from "./source.js";
 
-/** The bytes of WebAssembly, from their gzipped base64; `instead` says what there is to do where they cannot be unpacked. */
+/** The bytes of WebAssembly, from their gzipped base64; `instead` is the advice in the error where they cannot be unpacked. */
 export async function unpack(base64: string, instead: string): Promise<Uint8Array> {
   if (typeof DecompressionStream !== "function") throw unavailable(`DecompressionStream does not exist here: ${instead}`);
   try {
@@ -15,11 +15,11 @@ export async function unpack(base64: string, instead: string): Promise<Uint8Arra
   }
 }
 
-/** By the stream's own two ends: test environments have it beside a `Blob` without `stream` and without `Response`. */
+/** By the stream's own writer and reader: where tests run, `Blob.stream` and `Response` may not exist. */
 async function unzipped(packed: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
   const { writable, readable } = new DecompressionStream("gzip");
   const writer = writable.getWriter();
-  // Where one of these fails, so does the reading, which is waited for.
+  // where one of these fails, so does the reading, which is awaited
   for (const done of [writer.write(packed), writer.close()]) done.catch(() => {});
   const parts: Uint8Array[] = [];
   let length = 0;
