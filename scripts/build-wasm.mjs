@@ -87,13 +87,13 @@ async function bindgen(compiled, name) {
   const file = (end) => join(root, generated, `${name}${end}`);
   // What it would make when it is imported, `js/core/loading/platform.ts` makes at its first use.
   const lazy = 'import { FinalizationRegistry, TextDecoder, TextEncoder } from "../core/loading/platform.ts";\n';
-  // What `src/wasm/error.rs` names.
-  const error = 'import { WhitherError } from "#error";\n';
+  // What `src/wasm/` calls by name.
+  const named = 'import { WhitherError } from "#error";\nimport { best } from "../core/best.ts";\n';
   const code = readFileSync(file("_bg.js"), "utf8").replace(/^export (?=function __wb(?!g_set_wasm\b))/gm, "");
   const called = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(file("_bg.wasm"))));
   const names = called.map(({ name }) => name).join(", ");
   const imports = `export function imports() {\n  return { "${called[0].module}": { ${names} } };\n}\n`;
-  writeFileSync(file(".js"), `${lazy}${error}${code}\n${imports}`);
+  writeFileSync(file(".js"), `${lazy}${named}${code}\n${imports}`);
   const declared = "export function __wbg_set_wasm(exports: object): void;\nexport function imports(): WebAssembly.Imports;\n";
   writeFileSync(file(".d.ts"), `${readFileSync(file(".d.ts"), "utf8")}\n${declared}`);
   rmSync(file("_bg.js"));

@@ -20,7 +20,7 @@ pub use error::WhitherError;
 pub use pointer::pointer_scenario;
 #[cfg(feature = "wasm")]
 pub use predictor::Engine;
-#[cfg(all(feature = "wasm", feature = "papers"))]
+#[cfg(feature = "wasm")]
 pub use sequence::SequenceEngine;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -7,13 +7,13 @@ use crate::value::{Node, Value};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[wasm_bindgen(raw_module = "../core/best.ts")]
+#[wasm_bindgen]
 extern "C" {
     /// The interface of `js/core/best.ts`.
     #[derive(Debug)]
     pub type Best;
 
-    /// One call out of WebAssembly, which makes all of it.
+    /// Makes one by a single call out of WebAssembly; imported as `WhitherError` is.
     fn best(id: &str, index: usize, probability: f64) -> Best;
 }
 

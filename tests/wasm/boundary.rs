@@ -1,6 +1,6 @@
 //! The classes that JavaScript gets answer as the library does: constructing, observing, snapshots, sequences.
 
-use crate::node::{at, error_class, json, parts, plain};
+use crate::node::{at, globals, json, parts, plain};
 use crate::support::{golden, numbers, predictor, read, rows, scenario_of, sequence};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -19,7 +19,7 @@ fn flat(gaussian: &Gaussian) -> Vec<f64> {
 
 /// A golden movement through both.
 fn moved(method: &str) -> (Engine, Predictor, Json) {
-    error_class();
+    globals();
     let case = golden("cv2d-position-velocity");
     let scenario = scenario_of(&case, method);
     let (mut engine, mut predictor) = (good(Engine::new(plain(&scenario))), predictor(&scenario));
@@ -40,7 +40,9 @@ fn an_engine_answers_as_its_predictor() {
         assert_eq!(at(engine.probabilities(), count), predictor.probabilities());
         assert_eq!(at(engine.log_likelihoods(), count), predictor.log_likelihoods());
         assert_eq!((engine.none(), engine.expired()), (predictor.none(), predictor.expired()));
-        assert_eq!(engine.best(), predictor.best().map(|best| best.index));
+        let best = predictor.best().unwrap();
+        let expected = json!({ "id": best.id, "index": best.index, "probability": best.probability });
+        assert_eq!(json(&engine.best().unwrap()), expected);
         assert_eq!(engine.state(), predictor.state().as_ref().map(flat));
         assert_eq!(engine.initial_state(), predictor.initial_state().as_ref().map(flat));
         let time = 1.5 + rows(&case["observations"]).last().unwrap()[0];
@@ -97,13 +99,13 @@ fn a_snapshot_and_a_copy_go_on_to_the_bit() {
         assert_eq!(json(&good(copy.snapshot())), json(&good(engine.snapshot())));
     }
     engine.reset();
-    assert_eq!((engine.best(), engine.state()), (None, None));
+    assert!(engine.best().is_none() && engine.state().is_none());
     assert_ne!(json(&good(engine.snapshot())), snapshot);
 }
 
 #[wasm_bindgen_test]
 fn the_pointer_scenario_is_a_scenario() {
-    error_class();
+    globals();
     let given = &read("errors.json")["bases"]["pointer"]["from"];
     let scenario = good(pointer_scenario(plain(given)));
     let mut engine = good(Engine::new(scenario));
@@ -111,14 +113,14 @@ fn the_pointer_scenario_is_a_scenario() {
     assert_eq!(engine.none(), given["options"]["none"]);
     good(engine.observe(0.0, 2, 40.0, 2.0, 0.0));
     good(engine.observe(0.016, 2, 50.0, 2.0, 0.0));
-    assert_eq!(engine.best(), Some(1));
+    assert_eq!(json(&engine.best().unwrap())["id"], "b");
     let [mean, low, high] = engine.remaining().unwrap()[..] else { panic!("not three numbers") };
     assert!(0.0 < low && low < mean && mean < high);
 }
 
 #[wasm_bindgen_test]
 fn a_sequence_engine_answers_as_its_sequence() {
-    error_class();
+    globals();
     let configuration = &read("errors.json")["bases"]["sequence"]["from"];
     let (mut engine, mut sequence) = (good(SequenceEngine::new(plain(configuration))), sequence(configuration));
     good(engine.measure(plain(&json!({ "step": 3, "position": [1] }))));

@@ -1,6 +1,6 @@
 //! Every row of `tests/errors.json` through the boundary: what a row is, `tests/native/errors.rs` has.
 
-use crate::node::{error_class, json, parts, plain};
+use crate::node::{globals, json, parts, plain};
 use crate::support::{change, read};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -66,7 +66,7 @@ impl Subject {
 
 #[wasm_bindgen_test]
 fn everything_wrong_is_refused_by_name_and_changes_nothing() {
-    error_class();
+    globals();
     let mut table = read("errors.json");
     let (mut bases, rows) = (table["bases"].take(), table["rows"].take());
     bases["snapshot"]["from"] = Subject::begun(&bases, "scenario", &bases["scenario"]["from"]).everything();

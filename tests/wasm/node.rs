@@ -12,10 +12,11 @@ extern "C" {
     pub fn read_file(path: &str, encoding: &str) -> String;
 }
 
-/// Puts the error class, which the package has from `js/error.ts`, among the globals.
-pub fn error_class() {
+/// Puts among the globals what the package imports: the class of `js/core/error.ts` and the function of `js/core/best.ts`.
+pub fn globals() {
     let class = "globalThis.WhitherError = class { constructor(...parts) { this.parts = parts; } };";
-    Function::new_no_args(class).call0(&JsValue::NULL).unwrap();
+    let best = "globalThis.best = (id, index, probability) => ({ id, index, probability });";
+    Function::new_no_args(&format!("{class} {best}")).call0(&JsValue::NULL).unwrap();
 }
 
 /// What an error was made from, code, path and message, with numbers as Rust prints them: 1e51 where JavaScript has 1e+51.
@@ -50,7 +51,7 @@ pub fn json(value: &JsValue) -> Json {
     serde_json::from_str(&String::from(JSON::stringify(value).unwrap())).unwrap()
 }
 
-/// The numbers at a place in memory, as `js/predictor.ts` reads them.
+/// The numbers at a place in memory, as `js/core/predictor.ts` reads them.
 pub fn at(place: *const f64, count: usize) -> Vec<f64> {
     let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
     Float64Array::new_with_byte_offset_and_length(&memory.buffer(), place as u32, count as u32).to_vec()
