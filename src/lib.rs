@@ -78,7 +78,7 @@
 //! |---|---|---|
 //! | Liang (1) | transition `F, M, Q` | [`model::motion`] |
 //! | Liang (2) | observation | [`model::observation`] |
-//! | Liang (3) | posterior of the destinations | [`posterior::Posterior::update`] |
+//! | Liang (3) | posterior of the destinations | `posterior::Posterior::update` |
 //! | Liang (4) | the pseudo-observation of the endpoint | [`model::destination`] |
 //! | Liang (5) | likelihood given the arrival time | [`likelihood`] |
 //! | Liang (5), `p(y_1 given D, T)` | the first observation's evidence | [`model::initial::Initial::counted`] |
@@ -86,7 +86,7 @@
 //! | Liang (7)-(11) | Algorithm 1 | [`likelihood::algorithm1`] |
 //! | Liang (8) | Kalman prediction | [`math::kalman::Filter::predict`] |
 //! | Liang (9) | the endpoint seen from a state before it | [`model::endpoint`] |
-//! | Liang (10), or the bridged posterior, mixed | state, forecast, paths | [`posterior::state`] |
+//! | Liang (10), or the bridged posterior, mixed | state, forecast, paths | `likelihood::node_posterior` |
 //! | Liang (12)-(13) | Algorithm 2 | [`likelihood::algorithm2`] |
 //! | product of Liang (11), telescoped | the default | [`likelihood::pseudo_observation`] |
 //! | Liang's references 12 to 14 | original bridging distributions | [`likelihood::bridging`] |
@@ -115,8 +115,10 @@ pub mod wasm;
 pub mod math;
 pub mod model;
 
-pub mod likelihood;
 pub mod posterior;
+
+mod engine;
+pub mod likelihood;
 
 pub mod pointing;
 
@@ -139,8 +141,10 @@ pub use model::matrix::Matrix;
 pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};
 pub use model::per_axis::PerAxis;
-pub use posterior::arrival_time::Arrival as ArrivalTime;
-pub use predictor::{Best, Predictor, Remaining};
+pub use posterior::Best;
+pub use posterior::arrival_time::ArrivalTime;
+pub use posterior::remaining::Remaining;
+pub use predictor::Predictor;
 pub use scenario::Scenario;
 pub use value::Value;
 

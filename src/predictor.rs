@@ -1,78 +1,22 @@
-//! The predictor: observations in, beliefs out.
+//! The predictor: observations in, posteriors out.
 
 mod edit;
+mod movement;
 #[cfg(feature = "wasm")]
 mod size;
-mod track;
 
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
-use crate::model::arrival::MAX_TIME;
 use crate::model::destination::Destinations;
 use crate::model::habits::Habits;
 use crate::model::observation::ObservationNoise;
-use crate::posterior::Posterior;
-use crate::posterior::arrival_time::Arrival;
+use crate::posterior::arrival_time::ArrivalTime;
+use crate::posterior::remaining::Remaining;
+use crate::posterior::{Best, Posterior};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
+pub(crate) use movement::Movement;
 use std::sync::Arc;
-use track::Observed;
-pub(crate) use track::Track;
-
-/// The most probable destination.
-///
-/// ```
-/// use whither::{Predictor, Scenario};
-/// let scenario: Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
-///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
-///     "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [9], "size": 1, "prior": 3 }]
-/// }"#).unwrap();
-/// let mut predictor = Predictor::new(&scenario);
-/// assert_eq!(predictor.best(), None);
-/// predictor.observe(0.0, &[4.5]).unwrap(); // where it began says nothing: the priors stand
-/// let best = predictor.best().unwrap();
-/// assert_eq!((best.index, best.id.as_str()), (1, "b"));
-/// assert!((best.probability - 0.75).abs() < 1e-14);
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Best {
-    /// Its place in the order of the destinations.
-    pub index: usize,
-    /// Its id.
-    pub id: String,
-    /// Its probability.
-    pub probability: f64,
-}
-
-/// The time that is left, in seconds, with an interval.
-///
-/// With the papers' methods it lies between the tenth and the ninetieth percentile of the posterior of the arrival time. With
-/// `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three
-/// sets, but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices
-/// it holds less.
-///
-/// ```
-/// use whither::{Predictor, Scenario};
-/// let scenario: Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
-///     "arrival": { "type": "discrete", "times": [4], "weights": [1] },
-///     "destinations": [{ "id": "there", "center": [9], "size": 1 }]
-/// }"#).unwrap();
-/// let mut predictor = Predictor::new(&scenario);
-/// predictor.observe(10.0, &[0.0]).unwrap();
-/// predictor.observe(11.0, &[2.0]).unwrap();
-/// assert!((predictor.remaining().unwrap().mean - 3.0).abs() < 1e-12); // 4 seconds from the first observation
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Remaining {
-    /// The expected time to go; of the pointing model the median, which is off by the least.
-    pub mean: f64,
-    /// The lower end of the interval.
-    pub low: f64,
-    /// The upper end of the interval.
-    pub high: f64,
-}
 
 /// Predicts where one moving thing is going.
 ///
@@ -100,9 +44,11 @@ pub struct Remaining {
 pub struct Predictor {
     pub(crate) scenario: Arc<Scenario>,
     pub(crate) destinations: Arc<Destinations>,
-    pub(crate) track: Option<Track>,
+    pub(crate) movement: Option<Movement>,
     pub(crate) habits: Habits,
     posterior: Posterior,
+    log_likelihoods: Vec<f64>,
+    /// Whether the posterior is that of an earlier state.
     stale: bool,
 }
 
@@ -110,14 +56,23 @@ impl Predictor {
     /// A predictor before its first observation.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
-        Self::with_track(Arc::new(scenario.clone()), Arc::clone(&scenario.destinations), None)
+        Self::with_movement(Arc::new(scenario.clone()), Arc::clone(&scenario.destinations), None)
     }
 
-    pub(crate) fn with_track(scenario: Arc<Scenario>, destinations: Arc<Destinations>, track: Option<Track>) -> Self {
-        let posterior = Posterior::default();
-        let mut predictor = Self { scenario, destinations, track, habits: Habits::default(), posterior, stale: true };
-        predictor.posterior.set_to_prior(&predictor.destinations, predictor.scenario.none);
-        predictor
+    pub(crate) fn with_movement(
+        scenario: Arc<Scenario>,
+        destinations: Arc<Destinations>,
+        movement: Option<Movement>,
+    ) -> Self {
+        Self {
+            scenario,
+            destinations,
+            movement,
+            habits: Habits::default(),
+            posterior: Posterior::default(),
+            log_likelihoods: Vec::new(),
+            stale: true,
+        }
     }
 
     /// Takes one observation in: `time` in seconds on any clock, `position` with one number for each axis. The first one
@@ -154,27 +109,14 @@ impl Predictor {
             }
         };
         model.check(position)?;
-        let observed = Observed { time, position, noise: noise.as_ref().unwrap_or_else(|| model.noise()) };
-        let Some(track) = &mut self.track else {
-            self.track = Some(Track::begin(&self.scenario, &self.destinations, &observed)?);
+        let noise = noise.as_ref().unwrap_or_else(|| model.noise());
+        let Some(movement) = &mut self.movement else {
+            self.movement = Some(Movement::begin(&self.scenario, &self.destinations, time, position, noise)?);
             self.stale = true;
             return Ok(());
         };
-        if time < track.time {
-            let message =
-                format!("must be at least the last observation's, {}, got {}", number(track.time), number(time));
-            return Err(Error::new(Code::TimeNotIncreasing, "time", message));
-        }
-        if time - track.first_time > MAX_TIME {
-            let message = format!(
-                "must be at most 1e12 seconds after the first observation's, {}, got {}",
-                number(track.first_time),
-                number(time)
-            );
-            return Err(Error::new(Code::OutOfRange, "time", message));
-        }
-        track.advance(&self.scenario, &self.destinations, &observed)?;
-        self.stale |= !track.expired();
+        movement.advance(&self.scenario, &self.destinations, time, position, noise)?;
+        self.stale |= !movement.engine.expired();
         Ok(())
     }
 
@@ -182,9 +124,10 @@ impl Predictor {
         if !std::mem::take(&mut self.stale) {
             return;
         }
-        match &mut self.track {
-            Some(track) => track.update(&mut self.posterior, &self.destinations, self.scenario.none),
-            None => self.posterior.set_to_prior(&self.destinations, self.scenario.none),
+        let none = self.scenario.none;
+        match &mut self.movement {
+            Some(movement) => movement.engine.probabilities(&self.destinations, none, &mut self.posterior),
+            None => self.posterior.set_to_prior(&self.destinations, none),
         }
     }
 
@@ -253,7 +196,7 @@ impl Predictor {
 
     /// The most probable destination; none before the first observation.
     pub fn best(&mut self) -> Option<Best> {
-        self.track.as_ref()?;
+        self.movement.as_ref()?;
         self.refresh();
         let index = self.posterior.best();
         let probability = self.posterior.probabilities[index];
@@ -263,18 +206,20 @@ impl Predictor {
     /// `log p(y_2:k | y_1, D_i)`, marginalised over the arrival time, Liang (6), and the noise candidates; `log p(y_1:k | D_i)`
     /// where the first observation's evidence counts (`initial.evidence`).
     pub fn log_likelihoods(&mut self) -> &[f64] {
-        self.refresh();
-        match &mut self.track {
-            Some(track) => track.log_likelihoods(&mut self.posterior, &self.destinations),
-            None => self.posterior.log_likelihoods.resize(self.destinations.len(), 0.0),
+        match &mut self.movement {
+            Some(movement) => movement.engine.log_likelihoods(&self.destinations, &mut self.log_likelihoods),
+            None => {
+                self.log_likelihoods.clear();
+                self.log_likelihoods.resize(self.destinations.len(), 0.0);
+            }
         }
-        &self.posterior.log_likelihoods
+        &self.log_likelihoods
     }
 
     /// Whether every arrival node has passed; the probabilities stay as they last were.
     #[must_use]
     pub fn expired(&self) -> bool {
-        self.track.as_ref().is_some_and(Track::expired)
+        self.movement.as_ref().is_some_and(|movement| movement.engine.expired())
     }
 
     /// The posterior of the arrival time on the caller's clock, for one destination or mixed over all of them; none before
@@ -282,22 +227,18 @@ impl Predictor {
     ///
     /// # Errors
     /// `unknown-id`.
-    pub fn arrival(&mut self, id: Option<&str>) -> Result<Option<Arrival>> {
+    pub fn arrival(&mut self, id: Option<&str>) -> Result<Option<ArrivalTime>> {
         let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
         self.refresh();
-        let Some(track) = &mut self.track else { return Ok(None) };
-        let arrival = track.arrival(&self.scenario, &mut self.posterior, &self.destinations, only);
-        let Some(mut arrival) = arrival else { return Ok(None) };
-        arrival.times.iter_mut().for_each(|t| *t += track.first_time);
-        arrival.mean += track.first_time;
-        Ok(Some(arrival))
+        let Self { movement, posterior, destinations, .. } = self;
+        Ok(movement.as_mut().and_then(|movement| movement.arrival(posterior, destinations, only)))
     }
 
     /// The time to go and an interval, from the posterior of the arrival time; none before the second observation and after every
     /// node has passed.
     pub fn remaining(&mut self) -> Option<Remaining> {
         self.refresh();
-        self.track.as_mut()?.remaining(&self.scenario, &mut self.posterior, &self.destinations)
+        self.movement.as_mut()?.remaining(&self.posterior, &self.destinations)
     }
 
     /// The state now, given that the object is going to one of the destinations; none before the first observation. Each method
@@ -310,7 +251,7 @@ impl Predictor {
     /// The state at the first observation given all of them, `p(x_1 | y_1:k)`; none before the first observation.
     pub fn initial_state(&mut self) -> Option<Gaussian> {
         self.refresh();
-        self.track.as_mut()?.initial_state(&self.scenario, &mut self.posterior, &self.destinations)
+        self.movement.as_mut()?.initial_state(&self.posterior, &self.destinations)
     }
 
     /// The state at `time`, which is the last observation's or later, by the method's own family as [`Predictor::state`]; none
@@ -344,31 +285,21 @@ impl Predictor {
 
     fn after_last(&self, path: &str, time: f64) -> Result<Option<f64>> {
         check_time(path, time)?;
-        let Some(track) = &self.track else { return Ok(None) };
-        if time < track.time {
-            let last = number(track.time);
-            let message = format!("must be at least the last observation's time, {last}, got {}", number(time));
-            return Err(Error::new(Code::OutOfRange, path, message));
-        }
-        if time - track.time > MAX_TIME {
-            let message = format!("must be at most 1e12 seconds after the last observation, got {}", number(time));
-            return Err(Error::new(Code::OutOfRange, path, message));
-        }
-        Ok(Some(time - track.time))
+        self.movement.as_ref().map(|movement| movement.after_last(path, time)).transpose()
     }
 
     fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
         self.refresh();
-        self.track.as_mut()?.state(&self.scenario, &mut self.posterior, &self.destinations, later, only)
+        self.movement.as_mut()?.state(&self.posterior, &self.destinations, later, only)
     }
 
     /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.
     pub fn reset(&mut self) {
-        self.track = None;
+        self.movement = None;
         self.stale = true;
     }
 
-    /// Tells what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not.
+    /// Records what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not.
     /// The priors that are learnt hold from now on, for this movement and the ones after it.
     ///
     /// # Errors
@@ -383,10 +314,10 @@ impl Predictor {
         Ok(())
     }
 
-    /// Lets the movement see priors that have changed.
+    /// Gives the movement the priors that have changed.
     pub(crate) fn replan(&mut self) {
-        if let Some(track) = &mut self.track {
-            track.replan(&self.scenario, &self.destinations, None);
+        if let Some(movement) = &mut self.movement {
+            movement.engine.replan(&self.destinations, None);
         }
     }
 

@@ -14,9 +14,10 @@
 //! assert_eq!(scenario.destinations.len(), 2);
 //! ```
 
+mod begin;
+
 use crate::error::{Code, Error, Result};
 use crate::likelihood::Method;
-use crate::likelihood::plan::Plan;
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
@@ -315,15 +316,6 @@ impl Engine {
             }
         };
         Ok(Self::Papers { method, arrival, quadrature })
-    }
-
-    /// The arrival nodes of destinations, where a method of the papers needs them.
-    #[must_use]
-    pub fn plan(&self, destinations: &Destinations, start: &[f64]) -> Option<Plan> {
-        match self {
-            Self::Papers { arrival, quadrature, .. } => Some(Plan::new(destinations, arrival, quadrature, start)),
-            Self::Pointing(_) => None,
-        }
     }
 }
 

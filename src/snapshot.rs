@@ -2,7 +2,7 @@
 
 use crate::error::{Code, Error, Result};
 use crate::model::habits::Habits;
-use crate::predictor::{Predictor, Track};
+use crate::predictor::{Movement, Predictor};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
 use fnv::FnvHasher;
@@ -30,10 +30,10 @@ impl Predictor {
     /// ```
     #[must_use]
     pub fn snapshot(&self) -> Value {
-        let track = self.track.as_ref().map_or(Value::Null, |track| track.save(&self.scenario, &self.destinations));
+        let movement = self.movement.as_ref().map_or(Value::Null, |movement| movement.save(&self.destinations));
         let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
         let scenario = self.scenario.to_value_with(&self.destinations);
-        let body = Value::map([("scenario", scenario), ("habits", habits), ("track", track)]);
+        let body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);
         let seal = seal(&body);
         Value::map([
             ("whither", Value::text("snapshot")),
@@ -75,12 +75,12 @@ impl Predictor {
     }
 
     fn read_body(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["scenario", "habits", "track"])?;
+        let fields = node.fields(&["scenario", "habits", "movement"])?;
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
         let destinations = Arc::clone(&scenario.destinations);
-        let load = |track: Node<'_>| Track::load(&track, &scenario, &destinations);
-        let track = fields.optional("track").map(load).transpose()?;
-        let mut predictor = Self::with_track(scenario, destinations, track);
+        let load = |movement: Node<'_>| Movement::load(&movement, &scenario, &destinations);
+        let movement = fields.optional("movement").map(load).transpose()?;
+        let mut predictor = Self::with_movement(scenario, destinations, movement);
         if let Some(habits) = fields.optional("habits") {
             predictor.habits = Habits::load(&habits)?;
             predictor.apply_habits();

@@ -136,7 +136,7 @@ impl Likelihood for Bridging {
 
     /// The posterior of `[x_k; z]`, moved on by the bridged transition.
     fn states(&self, query: &StateQuery<'_>) -> Option<States> {
-        let (scene, node) = (query.believed, query.node);
+        let (scene, node) = (query.evidence, query.node);
         let (s, stride) = (scene.filter.states, Self::stride(&scene));
         let (onward, left) = query.onward(&scene);
         let (step, rest) = (scene.motion.transition(onward), scene.motion.transition(left));

@@ -15,11 +15,15 @@
 pub mod algorithm1;
 pub mod algorithm2;
 pub mod bridging;
-pub mod candidates;
+pub mod configuration;
+pub mod expiring;
+pub mod filter_bank;
+pub mod node_posterior;
 pub mod plan;
 pub mod pseudo_observation;
 pub mod single_filter;
 pub(crate) mod states;
+pub(crate) mod stepwise;
 
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
@@ -80,11 +84,10 @@ impl Method {
         matches!(self, Self::Algorithm1 | Self::Algorithm2 | Self::Bridging)
     }
 
-    /// The engine.
-    #[must_use]
-    pub(crate) fn engine(self) -> Box<dyn Likelihood> {
+    /// The likelihoods at the first observation.
+    pub(crate) fn likelihood(self) -> Box<dyn Likelihood> {
         match self {
-            Self::PseudoObservation => Box::new(pseudo_observation::dense::PseudoObservation),
+            Self::PseudoObservation => Box::new(pseudo_observation::dense::Dense),
             Self::Algorithm1 => Box::<algorithm1::Algorithm1>::default(),
             Self::Algorithm2 => Box::<algorithm2::Algorithm2>::default(),
             Self::Bridging => Box::<bridging::Bridging>::default(),
@@ -94,7 +97,7 @@ impl Method {
     }
 }
 
-/// What an engine sees: the models, the destinations with their nodes, and the filter now.
+/// What a method computes from: the models, the destinations with their nodes, and the filter now.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     /// The motion model.
@@ -126,7 +129,7 @@ pub(crate) struct Step<'a> {
     pub elapsed_before: f64,
 }
 
-/// An engine: turns a movement so far into `log p(y_2:k | y_1, D_i, T_n)`.
+/// A method: turns a movement so far into `log p(y_2:k | y_1, D_i, T_n)`.
 pub(crate) trait Likelihood: Send + Sync {
     /// Begins a movement at its first observation.
     fn begin(&mut self, _scene: &Scene<'_>) {}
@@ -139,8 +142,8 @@ pub(crate) trait Likelihood: Send + Sync {
     /// the first observation.
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]);
 
-    /// The state given a destination and an arrival time, as this engine's family constructs the endpoint; none where it has
-    /// no density there. Asked of the engine of [`StateQuery::believed`].
+    /// The state given a destination and an arrival time, as this method's family constructs the endpoint; none where it has
+    /// no density there. Asked of the method of [`StateQuery::evidence`].
     fn states(&self, query: &StateQuery<'_>) -> Option<States> {
         query.given_pseudo_observation()
     }

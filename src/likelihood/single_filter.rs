@@ -85,7 +85,7 @@ impl Likelihood for SingleFilter {
 
     /// The integrand of (12), normalised, is the density of `x_1`, `z` and the state at any time before the arrival.
     fn states(&self, query: &StateQuery<'_>) -> Option<States> {
-        let scene = query.believed;
+        let scene = query.evidence;
         let (s, length) = (scene.filter.states, query.node.covariance.nrows());
         let (onward, left) = query.onward(&scene);
         let step = scene.motion.transition(onward);

@@ -1,4 +1,4 @@
-//! The state given a destination and an arrival time, `p(x(t) | y_1:k, D_i, T_n)`: what every engine is asked, and Liang (10).
+//! The state given a destination and an arrival time, `p(x(t) | y_1:k, D_i, T_n)`: asked of every method, and Liang (10).
 //!
 //! Each family answers from its own construction of the endpoint. Where the endpoint is a pseudo-observation of `x_T` that is
 //! Liang (10), here; where it is independent of the start it is the posterior of the augmented state, in
@@ -15,8 +15,8 @@ pub(crate) struct StateQuery<'a> {
     /// The movement now.
     pub now: Scene<'a>,
     /// The movement whose likelihoods hold: the same, unless every node has passed since then.
-    pub believed: Scene<'a>,
-    /// The arrival time `T_n`, with what is left of it at `believed`.
+    pub evidence: Scene<'a>,
+    /// The arrival time `T_n`, with what is left of it at `evidence`.
     pub node: &'a NodeOfGroup<'a>,
     /// The destinations, all of the node's group.
     pub members: &'a [usize],

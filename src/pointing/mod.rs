@@ -21,6 +21,7 @@
 pub(crate) mod course;
 mod destinations;
 pub(crate) mod endpoint;
+pub(crate) mod engine;
 pub mod entry_time;
 pub(crate) mod evidence;
 pub(crate) mod from_start;

@@ -1,7 +1,7 @@
 //! The posterior of the pointing model: targets, none of them, the time to go.
 
 use super::{Pointing, minus};
-use crate::posterior::arrival_time::Arrival;
+use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::{Shares, shares};
 
 impl Pointing {
@@ -29,16 +29,6 @@ impl Pointing {
         none
     }
 
-    /// The targets with their shares of these probabilities, which [`Pointing::posterior`] wrote, or one of them alone.
-    #[must_use]
-    pub fn shares(&self, probabilities: &[f64], only: Option<usize>) -> Vec<(usize, f64)> {
-        shares::beside_none(probabilities, self.targets().priors(), only, || {
-            let mut log_likelihoods = Vec::new();
-            self.log_likelihoods(&mut log_likelihoods);
-            log_likelihoods
-        })
-    }
-
     /// The median of the time to the entry into the target and its interval, where the scenario has constants for it.
     #[must_use]
     pub fn entry_time(&self, shares: Shares<'_>) -> Option<[f64; 3]> {
@@ -58,13 +48,13 @@ impl Pointing {
 
     /// The posterior of the arrival time, in seconds since the first observation.
     #[must_use]
-    pub fn arrival(&self, shares: Shares<'_>) -> Arrival {
+    pub fn arrival(&self, shares: Shares<'_>) -> ArrivalTime {
         let pairs = self.nodes().pairs();
         let mut nodes: Vec<_> = pairs.list.iter().map(|pair| (self.course().elapsed + pair.time, 0.0)).collect();
         for &(i, share) in shares {
             let weights = pairs.weights(&self.targets().center(i), self.targets().extent(i));
             nodes.iter_mut().zip(weights).for_each(|(node, weight)| node.1 += share * weight);
         }
-        Arrival::from_nodes(&nodes)
+        ArrivalTime::from_nodes(&nodes)
     }
 }

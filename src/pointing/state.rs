@@ -8,7 +8,7 @@ use super::endpoint::{Pair, spread};
 use super::{Pointing, Symmetric, minus};
 use crate::math::gaussian::{Conditioning, Gaussian, condition_root, root, square, triangularise};
 use crate::posterior::Shares;
-use crate::posterior::state::Moments;
+use crate::posterior::moments::Moments;
 use nalgebra::{DMatrix, DVector};
 
 impl Pointing {

@@ -1,19 +1,16 @@
 //! The posterior of the arrival time, `p(T_n | y_1:k)`, mixed over the destinations or for one of them.
 
-use super::{Posterior, Shares};
-use crate::likelihood::candidates::Movement;
-
 /// Arrival times and their probabilities.
 ///
 /// ```
-/// use whither::Arrival;
-/// let arrival = Arrival::from_nodes(&[(5.0, 3.0), (1.0, 1.0)]);
+/// use whither::ArrivalTime;
+/// let arrival = ArrivalTime::from_nodes(&[(5.0, 3.0), (1.0, 1.0)]);
 /// assert_eq!((&arrival.times[..], &arrival.probabilities[..]), (&[1.0, 5.0][..], &[0.25, 0.75][..]));
 /// assert_eq!(arrival.mean, 4.0);
 /// assert!((arrival.deviation - 3f64.sqrt()).abs() < 1e-14); // (9 + 3 * 1) / 4
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arrival {
+pub struct ArrivalTime {
     /// The nodes, ascending.
     pub times: Vec<f64>,
     /// Their probabilities; they sum to one.
@@ -24,8 +21,8 @@ pub struct Arrival {
     pub deviation: f64,
 }
 
-impl Arrival {
-    /// The arrival for nodes that may repeat and be in any order; `weights` need not sum to one.
+impl ArrivalTime {
+    /// The posterior for nodes that may repeat and be in any order; `weights` need not sum to one.
     #[must_use]
     pub fn from_nodes(nodes: &[(f64, f64)]) -> Self {
         let (mut times, mut probabilities): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -68,31 +65,13 @@ impl Arrival {
     }
 }
 
-impl Posterior {
-    /// `p(T_n | y_1:k)` in seconds since the first observation, mixed over destinations by their shares; none where they
-    /// cannot be reached any more.
-    #[must_use]
-    pub fn arrival(&self, movement: &Movement, shares: Shares<'_>) -> Option<Arrival> {
-        let mut nodes = Vec::new();
-        for &(i, share) in shares {
-            let grid = movement.plan.grid_of[i] as usize;
-            let times = &movement.plan.grids[grid].times;
-            for (n, weight) in self.nodes_of(movement, i).into_iter().enumerate() {
-                let time = movement.plan.since_first(grid, times[n % times.len()], movement.elapsed);
-                nodes.push((time, share * weight));
-            }
-        }
-        nodes.iter().any(|(_, weight)| *weight > 0.0).then(|| Arrival::from_nodes(&nodes))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn nodes_at_one_time_are_one_node() {
-        let arrival = Arrival::from_nodes(&[(3.0, 1.0), (1.0, 1.0), (3.0, 2.0)]);
+        let arrival = ArrivalTime::from_nodes(&[(3.0, 1.0), (1.0, 1.0), (3.0, 2.0)]);
         assert_eq!(arrival.times, [1.0, 3.0]);
         assert_eq!(arrival.probabilities, [0.25, 0.75]);
         assert_eq!(arrival.mean, 2.5);
@@ -101,7 +80,7 @@ mod tests {
 
     #[test]
     fn quantiles_run_from_node_to_node() {
-        let arrival = Arrival::from_nodes(&[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0)]);
+        let arrival = ArrivalTime::from_nodes(&[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0)]);
         assert_eq!(arrival.quantile(0.05), 1.0);
         assert_eq!(arrival.quantile(0.25), 1.5);
         assert_eq!(arrival.quantile(0.99), 4.0);

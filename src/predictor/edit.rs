@@ -1,4 +1,4 @@
-//! Destinations that come, move and go while the object is on its way.
+//! Adding, moving and removing destinations while the object is on its way.
 
 use super::Predictor;
 use crate::error::{Code, Error, Result};
@@ -15,7 +15,7 @@ impl Predictor {
     ///
     /// # Errors
     /// Those of a scenario's destination; `duplicate-id`; `method-accumulates` in mid-movement where the method, or a motion
-    /// model that knows the destination, accumulates for each of them. Nothing has changed then.
+    /// model that depends on the destination, accumulates for each of them. Nothing has changed then.
     pub fn add_destination(&mut self, destination: &Value) -> Result<()> {
         let destination = self.read_destination(destination)?;
         let mut changed = (*self.destinations).clone();
@@ -73,7 +73,7 @@ impl Predictor {
     fn replace(&mut self, mut changed: Destinations) -> Result<()> {
         changed.renumber();
         self.scenario.check_destinations(&changed)?;
-        if self.track.is_none() {
+        if self.movement.is_none() {
             self.destinations = Arc::new(changed);
             self.apply_habits();
             self.stale = true;
@@ -83,8 +83,8 @@ impl Predictor {
         let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
         self.destinations = Arc::new(changed);
         self.apply_habits();
-        if let Some(track) = &mut self.track {
-            track.replan(&self.scenario, &self.destinations, origin.as_deref());
+        if let Some(movement) = &mut self.movement {
+            movement.engine.replan(&self.destinations, origin.as_deref());
         }
         self.stale = true;
         Ok(())

@@ -5,26 +5,27 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Each part of the crate and the parts that it may name with `crate::`. `error` and `value` are at the bottom.
-const RUST: [(&str, &[&str]); 14] = [
+const RUST: [(&str, &[&str]); 15] = [
     ("error", &[]),
     // the numbers of messages, as JavaScript prints them
     ("value", &["wasm"]),
     ("math", &["math"]),
     ("model", &["math", "model"]),
-    ("likelihood", &["math", "model", "likelihood"]),
     ("conditionally_markov", &["math", "model", "conditionally_markov"]),
-    ("posterior", &["math", "model", "likelihood", "posterior"]),
-    ("pointing", &["math", "model", "posterior", "pointing"]),
-    ("scenario", &["math", "model", "likelihood", "pointing"]),
+    ("posterior", &["math", "model", "posterior"]),
+    ("engine", &["math", "model", "posterior"]),
+    ("likelihood", &["math", "model", "posterior", "engine", "likelihood"]),
+    ("pointing", &["math", "model", "posterior", "engine", "pointing"]),
+    ("scenario", &["math", "model", "engine", "likelihood", "pointing", "scenario"]),
     ("pointer", &["scenario"]),
-    ("predictor", &["math", "model", "likelihood", "posterior", "pointing", "scenario", "predictor"]),
-    ("snapshot", &["math", "model", "likelihood", "posterior", "pointing", "scenario", "predictor"]),
+    ("predictor", &["math", "model", "posterior", "engine", "likelihood", "scenario", "predictor"]),
+    ("snapshot", &["model", "scenario", "predictor"]),
     ("study", &["math", "model", "likelihood", "pointing", "scenario", "predictor", "snapshot", "study"]),
     ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"]),
 ];
 
-/// Engines never import one another.
-const ENGINES: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
+/// Methods of the papers never import one another.
+const METHODS: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Each folder of js/ and the others that it may import.
 const JAVASCRIPT: [(&str, &[&str]); 4] =
@@ -96,11 +97,11 @@ fn imports_go_one_way() {
                 }
             }
         }
-        let engine = ENGINES.iter().find(|engine| name == format!("src/likelihood/{engine}.rs"));
-        if let Some(engine) = engine {
+        let method = METHODS.iter().find(|method| name == format!("src/likelihood/{method}.rs"));
+        if let Some(method) = method {
             let others = |line: &&String| {
                 line.trim_start().starts_with("use ")
-                    && ENGINES.iter().any(|other| other != engine && line.contains(other))
+                    && METHODS.iter().any(|other| other != method && line.contains(other))
             };
             wrong.extend(lines.iter().filter(others).map(|line| format!("{name}: {line}")));
         }

@@ -21,4 +21,3 @@ mod problem;
 mod sequences;
 mod states;
 mod support;
-mod telescoped;

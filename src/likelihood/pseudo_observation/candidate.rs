@@ -1,4 +1,4 @@
-//! The movement under one noise candidate, and what it sees of the endpoints of a class.
+//! The filters under one noise candidate, and its terms for a class of endpoints.
 
 use super::axis_endpoint::{AxisEnd, NodeTable};
 use super::classes::{End, Nodes};
@@ -13,7 +13,7 @@ use crate::math::kernel::vectors::Block;
 use crate::model::motion::{MotionModel, Transition};
 use std::sync::Arc;
 
-/// The movement under one noise candidate.
+/// The filters under one noise candidate.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     pub model: Arc<dyn MotionModel>,
@@ -41,7 +41,7 @@ pub(super) struct StepsTo {
     /// Which nodes, and how much of their time had passed.
     pub of: Option<(usize, u64)>,
     pub axes: [NodeTable; MOST],
-    pub whole: Vec<Transition>,
+    pub complete: Vec<Transition>,
 }
 
 impl Candidate {
@@ -52,8 +52,8 @@ impl Candidate {
         }
     }
 
-    /// `p(x_1 | y_1)` and the filter, of the whole state.
-    pub fn whole(&self) -> (Gaussian, Filter) {
+    /// `p(x_1 | y_1)` and the filter, of the complete state.
+    pub fn coupled(&self) -> (Gaussian, Filter) {
         match &self.source {
             Source::Separable { first, now } => {
                 let Coupled { first, filter } = coupled_of(first, now);
@@ -78,7 +78,8 @@ impl Candidate {
     }
 
     #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
-    pub fn see(
+    /// Adds the terms of a class: its nodes with their `weights`, and its endpoint.
+    pub fn prepare(
         &mut self,
         number: usize,
         nodes: &Nodes,
@@ -96,11 +97,11 @@ impl Candidate {
             Source::Separable { first, now } => {
                 let Some(axes) = &end.axes else { return };
                 to_now.fill_axes(model, now, number, axes, nodes, passed);
-                let mut foreseen;
+                let mut predicted;
                 let (start, start_tables) = if nodes.from_now {
-                    foreseen = *first;
-                    foreseen.foresee(model, elapsed);
-                    (&foreseen, &to_now.axes)
+                    predicted = *first;
+                    predicted.foresee(model, elapsed);
+                    (&predicted, &to_now.axes)
                 } else {
                     to_start.fill_axes(model, first, number, axes, nodes, 0.0);
                     (first, &to_start.axes)
@@ -110,16 +111,16 @@ impl Candidate {
                 work.see(&sight, axes);
             }
             Source::Coupled(coupled) => {
-                to_now.fill_whole(model, number, nodes, passed);
+                to_now.fill_complete(model, number, nodes, passed);
                 let start = if nodes.from_now {
-                    coupled.foresee(model, elapsed)
+                    coupled.predict_first(model, elapsed)
                 } else {
-                    to_start.fill_whole(model, number, nodes, 0.0);
+                    to_start.fill_complete(model, number, nodes, 0.0);
                     coupled.first.clone()
                 };
-                let start_steps = if nodes.from_now { &to_now.whole } else { &to_start.whole };
+                let start_steps = if nodes.from_now { &to_now.complete } else { &to_start.complete };
                 let (now, mut room) = (coupled.now(), coupled::Room::default());
-                let steps = to_now.whole.iter().zip(start_steps).zip(weights.as_flattened());
+                let steps = to_now.complete.iter().zip(start_steps).zip(weights.as_flattened());
                 for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
                     let factor = self.weight * weight;
                     let d = model.dimensions();
@@ -157,11 +158,11 @@ impl StepsTo {
         }
     }
 
-    fn fill_whole(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
+    fn fill_complete(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
         if self.is(number, passed) {
             return;
         }
-        self.whole.clear();
-        self.whole.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
+        self.complete.clear();
+        self.complete.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
     }
 }

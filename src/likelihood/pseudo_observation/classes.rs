@@ -1,9 +1,9 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
-use super::IN_RANGE;
 use super::axis_endpoint::AxisEnd;
 use super::pruning::{Leaf, MANY, arrange, leaves};
 use super::separable::MOST;
+use super::telescoped::IN_RANGE;
 use crate::likelihood::plan::Plan;
 use crate::math::kernel::layout::{FEW, Layout};
 use crate::math::kernel::mixture::AXES;

@@ -1,4 +1,4 @@
-//! Between the filters of separate axes and that of the whole state; every number is the same on both sides.
+//! Between the filters of separate axes and that of the complete state; every number is the same on both sides.
 
 use super::coupled::Coupled;
 use super::separable::{Axes, AxisFilter, MOST};
@@ -7,9 +7,9 @@ use crate::math::kalman::Filter;
 use crate::model::motion::MotionModel;
 use nalgebra::{DMatrix, DVector};
 
-/// The filter of the whole state from those of separate axes.
+/// The filter of the complete state from those of separate axes.
 pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
-    let (start, filter) = (whole(first), whole(now));
+    let (start, filter) = (complete(first), complete(now));
     let s = filter.states;
     let mut covariance = DMatrix::zeros(s, s);
     let d = first.dimensions;
@@ -24,7 +24,7 @@ pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
     Coupled { first, filter }
 }
 
-fn whole(axes: &Axes) -> Filter {
+fn complete(axes: &Axes) -> Filter {
     let d = axes.dimensions;
     let s = axes.filters.iter().take(d).map(AxisFilter::states).sum();
     let zero = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
@@ -44,17 +44,17 @@ fn whole(axes: &Axes) -> Filter {
     filter
 }
 
-/// Where the components of an axis stand, in its own filter and in that of the whole state, whose first half is the first state.
+/// The places of an axis's components, in its own filter and in that of the complete state, whose first half is the first state.
 fn places(states: usize, axis: usize, d: usize, s: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..states).flat_map(move |i| [(i, s + i * d + axis), (MOST + i, i * d + axis)])
 }
 
-/// Where a row of an axis's root stands in that of the whole state; both have the first state first.
+/// The place of a row of an axis's root in that of the complete state; both have the first state first.
 fn row_of(i: usize, states: usize, axis: usize, d: usize, s: usize) -> usize {
     if i < states { i * d + axis } else { s + (i - states) * d + axis }
 }
 
-/// The filters of separate axes from those of the whole state; none where the model or the state mixes axes.
+/// The filters of separate axes from those of the complete state; none where the model or the state mixes axes.
 pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
     let mut now = Axes::new(model)?;
     let (d, s) = (now.dimensions, filter.states);
@@ -73,10 +73,10 @@ pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Op
             now.filters[axis].mean[to] = filter.means[(from, 0)];
             start.filters[axis].mean[to] = first.mean[from % s];
         }
-        for (axes, whole) in [(&mut now, filter), (&mut start, &beginning)] {
+        for (axes, of) in [(&mut now, filter), (&mut start, &beginning)] {
             for i in 0..2 * states {
                 for j in 0..2 * states {
-                    let entry = whole.root[(row_of(i, states, axis, d, s), row_of(j, states, axis, d, s))];
+                    let entry = of.root[(row_of(i, states, axis, d, s), row_of(j, states, axis, d, s))];
                     axes.filters[axis].root[i][j] = entry;
                 }
             }

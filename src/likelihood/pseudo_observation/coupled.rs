@@ -1,4 +1,4 @@
-//! Models, observations or endpoints that mix axes: one filter over the whole state, and the endpoint's position as one
+//! Models, observations or endpoints that mix axes: one filter over the complete state, and the endpoint's position as one
 //! Gaussian with correlations. What the endpoint names beyond the position is conditioned on, as in [`super::separable`].
 
 use super::classes::End;
@@ -25,8 +25,8 @@ impl Coupled {
         Gaussian { mean: self.filter.mean(0), covariance: self.filter.current_covariance() }
     }
 
-    /// What the first observation says of the state `elapsed` after it.
-    pub fn foresee(&self, model: &dyn MotionModel, elapsed: f64) -> Gaussian {
+    /// The first state, predicted `elapsed` ahead.
+    pub fn predict_first(&self, model: &dyn MotionModel, elapsed: f64) -> Gaussian {
         let step = model.transition(elapsed);
         let covariance = propagate(&step.transition, &self.first.covariance, &step.noise);
         Gaussian { mean: &step.transition * &self.first.mean + step.offset, covariance }
@@ -35,7 +35,7 @@ impl Coupled {
 
 /// The endpoint of one node, as far as the position is concerned: a Gaussian, and the density of the rest.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+struct EndpointPosition {
     mean: [f64; AXES],
     covariance: Matrix,
     /// The rest's density is the root of this ...
@@ -53,7 +53,7 @@ pub struct Room {
     covariance: Vec<f64>,
 }
 
-impl Seen {
+impl EndpointPosition {
     /// From a state, `step` before the endpoint.
     // over slices: at the level for size each index of a matrix, and each step of an iterator, would be a call
     #[inline(never)]
@@ -67,16 +67,16 @@ impl Seen {
         covariance.clear();
         covariance.extend_from_slice(end.covariance.as_slice());
         for i in 0..length {
-            let mut whole = offset[i];
+            let mut sum = offset[i];
             for m in 0..s {
-                whole += transition[i + m * s] * start[m];
+                sum += transition[i + m * s] * start[m];
                 let mut entry = 0.0;
                 for j in 0..s {
                     entry += transition[i + j * s] * before[j + m * s];
                 }
                 product[m] = entry;
             }
-            mean.push(whole);
+            mean.push(sum);
             for j in 0..i + 1 {
                 let mut entry = noise[i + j * s];
                 for m in 0..s {
@@ -99,20 +99,20 @@ impl Seen {
                 }
             }
         }
-        let mut seen = Self { mean: [0.0; AXES], covariance: [[0.0; AXES]; AXES], density, exponent };
+        let mut position = Self { mean: [0.0; AXES], covariance: [[0.0; AXES]; AXES], density, exponent };
         for i in 0..d {
-            seen.mean[i] = mean[i];
+            position.mean[i] = mean[i];
             for j in 0..i + 1 {
-                seen.covariance[i][j] = covariance[i + j * length];
-                seen.covariance[j][i] = covariance[i + j * length];
+                position.covariance[i][j] = covariance[i + j * length];
+                position.covariance[j][i] = covariance[i + j * length];
             }
         }
-        seen
+        position
     }
 }
 
-/// The term of a node: the ratio of the endpoint's density seen from now to that seen from the start, about the mean seen from
-/// now, `factor` times two to `lead` in front. None where a covariance is singular.
+/// The term of a node: the ratio of the endpoint's density given all observations to that given the first, about its mean given all,
+/// `factor` times two to `lead` in front. None where a covariance is singular.
 pub fn ellipsoid(
     now: (&Gaussian, &Transition),
     start: (&Gaussian, &Transition),
@@ -121,8 +121,8 @@ pub fn ellipsoid(
     d: usize,
     room: &mut Room,
 ) -> Option<Ellipsoid> {
-    let here = Seen::new(now.0, now.1, end, d, room);
-    let there = Seen::new(start.0, start.1, end, d, room);
+    let here = EndpointPosition::new(now.0, now.1, end, d, room);
+    let there = EndpointPosition::new(start.0, start.1, end, d, room);
     let (precision, determinant) = inverse(here.covariance, d)?;
     let (start_precision, start_determinant) = inverse(there.covariance, d)?;
     let mut term = Ellipsoid {

@@ -28,11 +28,11 @@ use crate::likelihood::{Likelihood, Scene};
 use crate::math::gaussian::{Factor, propagate};
 use crate::model::endpoint::Endpoint;
 
-/// The engine; it keeps nothing.
+/// The likelihoods; nothing accumulates.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PseudoObservation;
+pub(crate) struct Dense;
 
-impl Likelihood for PseudoObservation {
+impl Likelihood for Dense {
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]) {
         table.fill(f64::NEG_INFINITY);
         let covariance = scene.filter.current_covariance();

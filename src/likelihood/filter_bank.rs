@@ -1,82 +1,48 @@
-//! One movement under every noise candidate.
+//! One movement under every noise candidate: a bank of filters.
 //!
-//! Each candidate has its filter and its engine; what they say is averaged by evidence (Bayesian model averaging),
-//! `p(y_2:k | y_1, D_i, T) = sum_c w_c p(y_2:k | y_1, D_i, T, c)`.
+//! Each candidate has its filter and its method's accumulators; their likelihoods are averaged by evidence (Bayesian model
+//! averaging), `p(y_2:k | y_1, D_i, T) = sum_c w_c p(y_2:k | y_1, D_i, T, c)`.
 
+use super::configuration::Configuration;
 use super::plan::Plan;
 use super::states::{StateQuery, States};
-use super::{Likelihood, Method, NodeOfGroup, Scene, Step};
+use super::{Likelihood, NodeOfGroup, Scene, Step};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::{Filter, Measurement, TimeUpdate};
 use crate::math::log_sum_exp::log_sum_exp;
 use crate::model::destination::Destinations;
-use crate::model::motion::{MotionModel, MotionModels, Transition};
+use crate::model::motion::{MotionModel, Transition};
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// The movement under one noise candidate.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::{Gaussian, Scenario, likelihood::{candidates::Movement, plan::Plan}, scenario::Engine};
-/// let scenario: Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": { "candidates": [1, 9], "weights": [1, 3] } },
-///     "observation": { "noise": 1 },
-///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
-///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
-/// }"#).unwrap();
-/// let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { panic!() };
-/// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
-/// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
-/// let movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);
-/// assert!((movement.worlds[0].log_weight - 0.25f64.ln()).abs() < 1e-14);
-/// assert_eq!(movement.worlds[1].model.transition(2.0).noise[(0, 0)], 162.0); // 9^2 * 2
-/// ```
+/// The filter and the likelihoods under one noise candidate.
 #[derive(Debug)]
-pub struct World {
+pub(crate) struct Candidate {
     /// `ln w_c`.
     pub log_weight: f64,
     /// The motion model with this noise.
     pub model: Arc<dyn MotionModel>,
     /// Its Kalman posterior.
     pub filter: Filter,
-    engine: Box<dyn Likelihood>,
+    likelihood: Box<dyn Likelihood>,
 }
 
-impl Clone for World {
+impl Clone for Candidate {
     fn clone(&self) -> Self {
         Self {
             log_weight: self.log_weight,
             model: Arc::clone(&self.model),
             filter: self.filter.clone(),
-            engine: self.engine.boxed(),
+            likelihood: self.likelihood.boxed(),
         }
     }
 }
 
-/// A movement so far.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::{Gaussian, Scenario, likelihood::{candidates::Movement, plan::Plan}, scenario::Engine};
-/// let scenario: Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
-///     "arrival": { "type": "discrete", "times": [2], "weights": [1] },
-///     "destinations": [{ "id": "there", "mean": [4], "covariance": [[3]] }]
-/// }"#).unwrap();
-/// let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { panic!() };
-/// let plan = Plan::new(&scenario.destinations, arrival, quadrature, &[0.0]);
-/// let first = Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] };
-/// let mut movement = Movement::begin(&scenario.motion, *method, &scenario.destinations, plan, first);
-/// let measurement = scenario.observation.measurement(&[Some(3.0)], None).unwrap();
-/// movement.advance(&scenario.destinations, 1.0, &measurement).unwrap();
-/// // N(0, 1) has become N(0, 2); of 3, seen with the variance 1, two thirds are believed
-/// assert!((movement.worlds[0].filter.mean(0)[0] - 2.0).abs() < 1e-14);
-/// ```
+/// The filters of one movement so far.
 #[derive(Clone, Debug)]
-pub struct Movement {
+pub(crate) struct FilterBank {
     /// The arrival nodes.
     pub plan: Plan,
     /// `p(x_1 | y_1)`; `p(x_1)` where the first observation's evidence counts.
@@ -84,46 +50,39 @@ pub struct Movement {
     /// Whether the first observation's evidence counts: likelihoods are of `y_1:k`, not of `y_2:k` given `y_1`.
     pub first_counts: bool,
     /// One for each noise candidate.
-    pub worlds: Vec<World>,
+    pub candidates: Vec<Candidate>,
     /// `t_k - t_1`.
     pub elapsed: f64,
     /// `k`, the number of observations.
     pub observations: u64,
 }
 
-impl Movement {
-    /// A movement at its first observation.
-    #[must_use]
-    pub fn begin(
-        motion: &MotionModels,
-        method: Method,
-        destinations: &Destinations,
-        plan: Plan,
-        first: Gaussian,
-    ) -> Self {
+impl FilterBank {
+    /// The filters with `p(x_1 | y_1)` at the first observation. Where its evidence counts, `first` is `p(x_1)`, and
+    /// [`FilterBank::advance`] takes the first observation in, no time having passed: so `p(y_1 | D_i, T)` of Liang (5) counts.
+    pub fn begin(configuration: &Configuration, destinations: &Destinations, first: Gaussian) -> Self {
+        let Configuration { motion, method, first_counts, .. } = configuration;
         let columns = if motion.depends_on_destination() { destinations.len() } else { 1 };
-        let worlds = motion.candidates.iter().map(|candidate| World {
+        let candidates = motion.candidates.iter().map(|candidate| Candidate {
             log_weight: candidate.weight.ln(),
             model: Arc::clone(&candidate.model),
             filter: Filter::new(&first, columns),
-            engine: method.engine(),
+            likelihood: method.likelihood(),
         });
-        let mut movement =
-            Self { plan, worlds: worlds.collect(), first, first_counts: false, elapsed: 0.0, observations: 1 };
-        movement
-            .each_engine(destinations, |engine, scene| {
-                engine.begin(scene);
-                Ok(())
-            })
-            .unwrap_or_default();
-        movement
-    }
-
-    /// The movement as it is before its first observation, which [`Movement::advance`] then takes in, no time having passed:
-    /// what it began with is `p(x_1)`, and `p(y_1 | D_i, T)` of Liang (5) counts.
-    #[must_use]
-    pub fn before_first_observation(self) -> Self {
-        Self { first_counts: true, observations: 0, ..self }
+        let mut bank = Self {
+            plan: configuration.plan(destinations),
+            candidates: candidates.collect(),
+            first,
+            first_counts: *first_counts,
+            elapsed: 0.0,
+            observations: u64::from(!first_counts),
+        };
+        bank.each_likelihood(destinations, |likelihood, scene| {
+            likelihood.begin(scene);
+            Ok(())
+        })
+        .unwrap_or_default();
+        bank
     }
 
     /// Whether something has been observed that counts as evidence.
@@ -133,13 +92,13 @@ impl Movement {
 
     /// Acts on every (group, node) pair that has not passed.
     pub(crate) fn each_node(&self, destinations: &Destinations, mut act: impl FnMut(&NodeOfGroup<'_>)) {
-        let Some(world) = self.worlds.first() else { return };
-        let scene = self.scene(world, destinations);
+        let Some(candidate) = self.candidates.first() else { return };
+        let scene = self.scene(candidate, destinations);
         scene.nodes_ahead(self.elapsed).for_each(|node| act(&node));
     }
 
     /// The states `later` seconds after `now` under noise candidate `c`, given `node` and each of `members`; the likelihoods
-    /// are those of this movement.
+    /// are those of these filters.
     pub(crate) fn states(
         &self,
         now: &Self,
@@ -149,28 +108,28 @@ impl Movement {
         members: &[usize],
         later: f64,
     ) -> Option<States> {
-        let (world, latest) = (self.worlds.get(c)?, now.worlds.get(c)?);
-        let (believed, now) = (self.scene(world, destinations), now.scene(latest, destinations));
-        world.engine.states(&StateQuery { now, believed, node, members, later })
+        let (candidate, latest) = (self.candidates.get(c)?, now.candidates.get(c)?);
+        let (evidence, now) = (self.scene(candidate, destinations), now.scene(latest, destinations));
+        candidate.likelihood.states(&StateQuery { now, evidence, node, members, later })
     }
 
-    fn scene<'a>(&'a self, world: &'a World, destinations: &'a Destinations) -> Scene<'a> {
+    fn scene<'a>(&'a self, candidate: &'a Candidate, destinations: &'a Destinations) -> Scene<'a> {
         Scene {
-            motion: world.model.as_ref(),
+            motion: candidate.model.as_ref(),
             destinations,
             plan: &self.plan,
             first: &self.first,
-            filter: &world.filter,
+            filter: &candidate.filter,
             elapsed: self.elapsed,
         }
     }
 
-    fn each_engine(
+    fn each_likelihood(
         &mut self,
         destinations: &Destinations,
         mut act: impl FnMut(&mut dyn Likelihood, &Scene<'_>) -> Result<()>,
     ) -> Result<()> {
-        for World { model, filter, engine, .. } in &mut self.worlds {
+        for Candidate { model, filter, likelihood, .. } in &mut self.candidates {
             let scene = Scene {
                 motion: model.as_ref(),
                 destinations,
@@ -179,7 +138,7 @@ impl Movement {
                 filter,
                 elapsed: self.elapsed,
             };
-            act(engine.as_mut(), &scene)?;
+            act(likelihood.as_mut(), &scene)?;
         }
         Ok(())
     }
@@ -190,10 +149,10 @@ impl Movement {
     /// `out-of-range` where the numbers grow beyond what can be computed with (a drift that explodes); nothing has changed
     /// then.
     pub fn advance(&mut self, destinations: &Destinations, elapsed: f64, measurement: &Measurement) -> Result<()> {
-        let mut steps = Vec::with_capacity(self.worlds.len());
-        for world in &self.worlds {
-            let transition = world.model.transition(elapsed - self.elapsed);
-            let mut predicted = world.filter.clone();
+        let mut steps = Vec::with_capacity(self.candidates.len());
+        for candidate in &self.candidates {
+            let transition = candidate.model.transition(elapsed - self.elapsed);
+            let mut predicted = candidate.filter.clone();
             predicted.predict(&TimeUpdate {
                 transition: &transition.transition,
                 offsets: &offsets(&transition, destinations, predicted.means.ncols()),
@@ -204,81 +163,78 @@ impl Movement {
         }
         let elapsed_before = std::mem::replace(&mut self.elapsed, elapsed);
         self.observations += 1;
-        for (World { model, filter, engine, .. }, (transition, predicted, corrected)) in
-            self.worlds.iter_mut().zip(steps)
+        for (Candidate { model, filter, likelihood, .. }, (transition, predicted, corrected)) in
+            self.candidates.iter_mut().zip(steps)
         {
             let before = std::mem::replace(filter, corrected);
             let scene =
                 Scene { motion: model.as_ref(), destinations, plan: &self.plan, first: &self.first, filter, elapsed };
             let step =
                 Step { before: &before, predicted: &predicted, transition: &transition, measurement, elapsed_before };
-            engine.advance(&scene, &step);
+            likelihood.advance(&scene, &step);
         }
         Ok(())
     }
 
     /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as [`Plan::rows`] says.
-    pub fn joint(&self, destinations: &Destinations, tables: &mut Vec<Vec<f64>>) {
-        let length = self.plan.rows.last().copied().unwrap_or(0);
-        tables.resize_with(self.worlds.len(), Vec::new);
-        for (world, table) in self.worlds.iter().zip(tables) {
-            table.clear();
-            table.resize(length, 0.0);
+    pub fn joint(&self, destinations: &Destinations) -> Vec<Vec<f64>> {
+        let joint = |candidate: &Candidate| {
+            let mut table = vec![0.0; self.plan.rows.last().copied().unwrap_or(0)];
             if self.has_evidence() {
-                world.engine.log_likelihoods(&self.scene(world, destinations), table);
+                candidate.likelihood.log_likelihoods(&self.scene(candidate, destinations), &mut table);
             }
             for i in 0..self.plan.grid_of.len() {
                 let row = &mut table[self.plan.rows[i]..self.plan.rows[i + 1]];
                 for (value, log_prior) in row.iter_mut().zip(&self.plan.grid(i).log_weights) {
-                    *value += world.log_weight + log_prior;
+                    *value += candidate.log_weight + log_prior;
                     if value.is_nan() {
                         *value = f64::NEG_INFINITY;
                     }
                 }
             }
-        }
+            table
+        };
+        self.candidates.iter().map(joint).collect()
     }
 
     /// `log p(y_2:k | y_1)` where the object is going to none of them: the ratio of the telescoped form is one. A motion
     /// model that knows the destination is averaged over the destinations' centres by their priors.
-    #[must_use]
     pub fn log_evidence_of_none(&self, priors: &[f64]) -> f64 {
         let total: f64 = priors.iter().sum();
         let mut terms = Vec::new();
-        for world in &self.worlds {
-            let evidence = &world.filter.log_evidence;
+        for candidate in &self.candidates {
+            let evidence = &candidate.filter.log_evidence;
             if evidence.len() == 1 {
-                terms.push(world.log_weight + evidence[0]);
+                terms.push(candidate.log_weight + evidence[0]);
             } else {
                 let each = evidence.iter().zip(priors);
-                terms.extend(each.map(|(evidence, prior)| world.log_weight + evidence + (prior / total).ln()));
+                terms.extend(each.map(|(evidence, prior)| candidate.log_weight + evidence + (prior / total).ln()));
             }
         }
         log_sum_exp(&terms)
     }
 
-    /// Other destinations in mid-movement, where nothing is accumulated for each of them: `origin` tells which old one each
+    /// Other destinations in mid-movement, where nothing is accumulated for each of them: `origin` holds which old one each
     /// new one was, where the motion model knows the destination.
     pub fn replan(&mut self, plan: Plan, origin: Option<&[usize]>) {
         self.plan = plan;
         let Some(origin) = origin else { return };
-        for world in &mut self.worlds {
-            let filter = &mut world.filter;
+        for candidate in &mut self.candidates {
+            let filter = &mut candidate.filter;
             filter.means = filter.means.select_columns(origin);
             filter.log_evidence = origin.iter().map(|&i| filter.log_evidence[i]).collect();
         }
     }
 
     /// What a snapshot keeps.
-    #[must_use]
     pub fn save(&self) -> Value {
         let matrix = |m: &DMatrix<f64>| Value::exact_numbers(m.iter());
-        let worlds = self.worlds.iter().map(|world| {
+        let candidates = self.candidates.iter().map(|candidate| {
             Value::map([
-                ("means", matrix(&world.filter.means)),
-                ("root", matrix(&world.filter.root)),
-                ("evidence", Value::exact_numbers(&world.filter.log_evidence)),
-                ("engine", world.engine.save()),
+                ("means", matrix(&candidate.filter.means)),
+                ("root", matrix(&candidate.filter.root)),
+                ("evidence", Value::exact_numbers(&candidate.filter.log_evidence)),
+                ("accumulated", candidate.likelihood.save()),
             ])
         });
         Value::map([
@@ -286,57 +242,51 @@ impl Movement {
             ("observations", Value::Number(self.observations as f64)),
             ("firstMean", Value::exact_numbers(self.first.mean.iter())),
             ("firstCovariance", matrix(&self.first.covariance)),
-            ("worlds", Value::List(worlds.collect())),
+            ("candidates", Value::List(candidates.collect())),
         ])
     }
 
-    /// The movement that [`Movement::save`] wrote.
+    /// The filters that [`FilterBank::save`] wrote.
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(
-        node: &Node<'_>,
-        motion: &MotionModels,
-        method: Method,
-        destinations: &Destinations,
-        plan: Plan,
-    ) -> Result<Self> {
-        let fields = node.fields(&["elapsed", "observations", "firstMean", "firstCovariance", "worlds"])?;
-        let s = motion.states();
+    pub fn load(node: &Node<'_>, configuration: &Configuration, destinations: &Destinations) -> Result<Self> {
+        let fields = node.fields(&["elapsed", "observations", "firstMean", "firstCovariance", "candidates"])?;
+        let s = configuration.motion.states();
         let first = Gaussian {
             mean: DVector::from_vec(fields.required("firstMean")?.exact_numbers(s)?),
             covariance: DMatrix::from_vec(s, s, fields.required("firstCovariance")?.exact_numbers(s * s)?),
         };
-        let mut movement = Self::begin(motion, method, destinations, plan, first);
-        movement.elapsed = fields.required("elapsed")?.exact()?;
-        movement.observations = fields.positive("observations")? as u64;
-        let list = fields.required("worlds")?;
+        let mut bank = Self::begin(configuration, destinations, first);
+        bank.elapsed = fields.required("elapsed")?.exact()?;
+        bank.observations = fields.positive("observations")? as u64;
+        let list = fields.required("candidates")?;
         let items: Vec<Node<'_>> = list.items()?.collect();
-        for (world, item) in movement.worlds.iter_mut().zip(&items) {
-            let fields = item.fields(&["means", "root", "evidence", "engine"])?;
-            let (columns, rows) = (world.filter.means.ncols(), 2 * s);
+        for (candidate, item) in bank.candidates.iter_mut().zip(&items) {
+            let fields = item.fields(&["means", "root", "evidence", "accumulated"])?;
+            let (columns, rows) = (candidate.filter.means.ncols(), 2 * s);
             let means = fields.required("means")?.exact_numbers(rows * columns)?;
-            world.filter.means = DMatrix::from_vec(rows, columns, means);
+            candidate.filter.means = DMatrix::from_vec(rows, columns, means);
             let root = fields.required("root")?.exact_numbers(rows * rows)?;
-            world.filter.root = DMatrix::from_vec(rows, rows, root);
-            world.filter.log_evidence = fields.required("evidence")?.exact_numbers(columns)?;
+            candidate.filter.root = DMatrix::from_vec(rows, rows, root);
+            candidate.filter.log_evidence = fields.required("evidence")?.exact_numbers(columns)?;
         }
-        let mut engines = items.iter();
-        movement.each_engine(destinations, |engine, scene| {
-            match engines.next().and_then(|item| item.get("engine")) {
-                Some(saved) => engine.load(scene, &saved),
+        let mut saved_items = items.iter();
+        bank.each_likelihood(destinations, |likelihood, scene| {
+            match saved_items.next().and_then(|item| item.get("accumulated")) {
+                Some(saved) => likelihood.load(scene, &saved),
                 None => Ok(()),
             }
         })?;
-        Ok(movement)
+        Ok(bank)
     }
 }
 
 /// One step of a filter whose motion model does not know the destination.
 ///
 /// # Errors
-/// As [`Movement::advance`].
-pub fn advance_filter(
+/// As [`FilterBank::advance`].
+pub(crate) fn advance_filter(
     filter: &Filter,
     model: &dyn MotionModel,
     step: f64,

@@ -1,15 +1,20 @@
-//! The fast form of `pseudoObservation` against the dense one, which says the same one pair at a time.
+//! The fast form against the dense one, which computes the same one pair at a time.
 
-use crate::support::value;
+use super::PseudoObservation;
+use crate::engine::{Engine, Observed};
+use crate::likelihood::Method;
+use crate::likelihood::configuration::Configuration;
+use crate::likelihood::stepwise::Stepwise;
+use crate::math::random::Random;
+use crate::posterior::Posterior;
+use crate::scenario::Engine as Choice;
+use crate::{Predictor, Scenario};
 use nalgebra::DMatrix;
 use serde_json::{Value as Json, json};
-use whither::likelihood::Method;
-use whither::likelihood::candidates::Movement;
-use whither::likelihood::plan::Plan;
-use whither::likelihood::pseudo_observation::Telescoped;
-use whither::math::random::Random;
-use whither::posterior::Posterior;
-use whither::{Predictor, Scenario};
+
+fn read(json: &Json) -> Scenario {
+    serde_json::from_value(json.clone()).unwrap()
+}
 
 /// One of a list, at random.
 fn pick<T: Clone>(random: &mut Random, list: &[T]) -> T {
@@ -128,7 +133,7 @@ struct Difference {
 
 /// Runs both over one movement and compares them after every observation.
 fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
-    let scenario = Scenario::from_value(&value(json)).unwrap();
+    let scenario = read(json);
     let (destinations, model) = (&scenario.destinations, &scenario.observation);
     let d = scenario.motion.dimensions();
     let mut velocity = vector(random, d, 800.0);
@@ -138,25 +143,32 @@ fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
     };
     let first = observe(&position, random);
     let first = scenario.initial.posterior(model, &model.measurement(&first, None).unwrap()).unwrap();
-    let plan = || scenario.engine.plan(destinations, &first.mean.as_slice()[..d]).unwrap();
-    let mut dense = Movement::begin(&scenario.motion, Method::PseudoObservation, destinations, plan(), first.clone());
-    let mut fast = Telescoped::begin(&scenario.motion, destinations, &plan(), &first, true);
-    let mut posterior = Posterior::default();
-    let (mut found, mut log_found) = (Vec::new(), Vec::new());
+    let Choice::Papers { arrival, quadrature, .. } = &scenario.engine else { panic!() };
+    let configuration = || Configuration {
+        motion: scenario.motion.clone(),
+        method: Method::PseudoObservation,
+        arrival: arrival.clone(),
+        quadrature: quadrature.clone(),
+        observes_position: true,
+        first_counts: false,
+        start: first.mean.as_slice()[..d].to_vec(),
+    };
+    let mut dense = Stepwise::begin(configuration(), destinations, first.clone());
+    let mut fast = PseudoObservation::begin(configuration(), destinations, &first);
+    let [mut expected, mut found] = [Posterior::default(), Posterior::default()];
+    let [mut log_expected, mut log_found] = [Vec::new(), Vec::new()];
+    let mut elapsed = 0.0;
     let variance = model.noise()[(0, 0)];
     for k in 1..=25 {
         let step = if k % 6 == 0 { 0.0 } else { 0.016 + 0.001 * random.normal() };
-        if !Plan::is_alive(&dense.plan, dense.elapsed + step) {
-            break;
-        }
         for axis in 0..d {
             velocity[axis] += 60.0 * random.normal();
             position[axis] += step * velocity[axis];
         }
-        let mut seen = observe(&position, random);
+        let mut observed = observe(&position, random);
         let (mut noise, mut variances) = (None, [variance; 3]);
         match (k % 9, d) {
-            (4, 2..) => seen[1] = None,
+            (4, 2..) => observed[1] = None,
             (5, _) => variances = [9.0, 4.0, 25.0],
             (8, 2..) if k > 20 && random.uniform() < 0.3 => {
                 noise = Some(DMatrix::from_fn(d, d, |i, j| if i == j { 4.0 } else { 1.0 }));
@@ -164,23 +176,24 @@ fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
             _ => {}
         }
         let diagonal = DMatrix::from_fn(d, d, |i, j| if i == j { variances[i] } else { 0.0 });
-        let measurement = model.measurement(&seen, Some(noise.as_ref().unwrap_or(&diagonal))).unwrap();
-        let elapsed = dense.elapsed + step;
-        dense.advance(destinations, elapsed, &measurement).unwrap();
-        if noise.is_some() && fast.is_separable() {
-            fast.couple(destinations, &plan());
+        elapsed += step;
+        let observed = Observed { elapsed, position: &observed, noise: noise.as_ref().unwrap_or(&diagonal), model };
+        dense.advance(destinations, &observed).unwrap();
+        fast.advance(destinations, &observed).unwrap();
+        assert_eq!(fast.expired(), dense.expired());
+        if dense.expired() {
+            break;
         }
-        if !fast.advance_separately(elapsed, &seen, &variances) {
-            fast.advance(elapsed, &measurement).unwrap();
-        }
-        posterior.update(&dense, destinations, scenario.none);
-        let none = fast.probabilities(destinations, scenario.none, &mut found).unwrap();
+        dense.probabilities(destinations, scenario.none, &mut expected);
+        fast.probabilities(destinations, scenario.none, &mut found);
+        dense.log_likelihoods(destinations, &mut log_expected);
         fast.log_likelihoods(destinations, &mut log_found);
-        for (p, expected) in found.iter().chain([&none]).zip(posterior.probabilities.iter().chain([&posterior.none])) {
+        let both = found.probabilities.iter().zip(&expected.probabilities);
+        for (p, expected) in both.chain([(&found.none, &expected.none)]) {
             worst.probability = worst.probability.max((p - expected).abs());
             assert!((p - expected).abs() < 1e-12, "{p:e} {expected:e} after {k} observations of {json}");
         }
-        for (l, expected) in log_found.iter().zip(&posterior.log_likelihoods) {
+        for (l, expected) in log_found.iter().zip(&log_expected) {
             let difference = (l - expected).abs() / (1.0 + expected.abs());
             worst.log_likelihood = worst.log_likelihood.max(difference);
             assert!(difference < 1e-12, "{l} {expected} after {k} observations of {json}");
@@ -189,7 +202,7 @@ fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
 }
 
 #[test]
-fn it_says_what_the_dense_form_says() {
+fn it_equals_the_dense_form() {
     let mut worst = Difference { probability: 0.0, log_likelihood: 0.0 };
     for seed in 0..36 {
         let mut random = Random::new(seed);
@@ -205,7 +218,7 @@ fn it_says_what_the_dense_form_says() {
 
 /// Destinations fill blocks, the last one seldom to its end: what fills it up must not count, near or far.
 #[test]
-fn whole_and_broken_blocks_say_what_the_dense_form_says() {
+fn full_and_partial_blocks_equal_the_dense_form() {
     let mut worst = Difference { probability: 0.0, log_likelihood: 0.0 };
     let mut random = Random::new(5);
     for d in 1..=3 {
@@ -232,12 +245,12 @@ fn whole_and_broken_blocks_say_what_the_dense_form_says() {
     assert!(worst.probability > 0.0, "compared with itself");
 }
 
-/// Many destinations on a map, of which those far from where the object can get are left out.
+/// Many destinations on a map, of which those far from where the object can get are pruned.
 #[test]
-fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
+fn of_a_large_map_only_what_can_be_reached_is_evaluated() {
     let mut worst = Difference { probability: 0.0, log_likelihood: 0.0 };
     let mut random = Random::new(77);
-    let world = |random: &mut Random, d: usize, size: Json, noise: Json| {
+    let map = |random: &mut Random, d: usize, size: Json, noise: Json| {
         let one = |random: &mut Random, i: usize| {
             let center = vector(random, d, 30_000.0);
             json!({ "id": format!("h{i}"), "center": center, "size": size, "prior": 0.1 + random.uniform() })
@@ -254,13 +267,13 @@ fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
         })
     };
     for json in [
-        world(&mut random, 2, json!(300), json!(90)),
-        world(&mut random, 2, json!([300, 200]), json!([90, 50])),
-        world(&mut random, 3, json!(900), json!(90)),
-        world(&mut random, 1, json!(20), json!(90)),
+        map(&mut random, 2, json!(300), json!(90)),
+        map(&mut random, 2, json!([300, 200]), json!([90, 50])),
+        map(&mut random, 3, json!(900), json!(90)),
+        map(&mut random, 1, json!(20), json!(90)),
     ] {
         compare(&json, &mut random, &mut worst);
-        let mut predictor = Predictor::new(&Scenario::from_value(&value(&json)).unwrap());
+        let mut predictor = Predictor::new(&read(&json));
         let zeros = |predictor: &mut Predictor| predictor.probabilities().iter().filter(|p| **p == 0.0).count();
         let d = predictor.dimensions();
         for k in 0..4 {
@@ -268,7 +281,7 @@ fn of_a_large_world_only_what_can_be_reached_is_evaluated() {
             let t = f64::from(k) * 0.5;
             predictor.observe(t, &[900.0 * t, -400.0 * t, 100.0 * t][..d]).unwrap();
             if k > 0 {
-                assert!(zeros(&mut predictor) > 2000, "{d} axes: {} left out", zeros(&mut predictor));
+                assert!(zeros(&mut predictor) > 2000, "{d} axes: {} pruned", zeros(&mut predictor));
                 break;
             }
         }
@@ -293,7 +306,7 @@ fn what_can_no_longer_be_reached_in_time_has_no_likelihood() {
         "arrival": { "type": "uniform", "from": 1, "to": 3 },
         "destinations": destinations,
     });
-    let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap());
+    let mut predictor = Predictor::new(&read(&scenario));
     for k in 0..5 {
         predictor.observe(0.1 * f64::from(k), &[3.0 * f64::from(k), 2.0]).unwrap();
     }
@@ -316,7 +329,7 @@ fn no_probability_is_above_one() {
                 { "id": "behind", "center": [-9000, 50], "size": 40 },
             ],
         });
-        let mut predictor = Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap());
+        let mut predictor = Predictor::new(&read(&scenario));
         for step in 0..4 {
             let t = 0.1 * f64::from(step);
             predictor.observe(t, &[3000.0 * t, 50.0 * t]).unwrap();

@@ -1,0 +1,365 @@
+//! The telescoped form of Liang's prediction errors for all destinations at once: the filters, and the sums over nodes.
+
+use super::candidate::{Candidate, Source, Tables};
+use super::classes::{Class, Classes};
+use super::coefficients::Work;
+use super::conversion::{axes_of, coupled_of};
+use super::coupled::Coupled;
+use super::separable::MOST;
+use crate::engine::Observed;
+use crate::error::Result;
+use crate::likelihood::configuration::Configuration;
+use crate::likelihood::filter_bank::{FilterBank, advance_filter};
+use crate::likelihood::plan::Plan;
+use crate::math::gaussian::Gaussian;
+use crate::math::kalman::Filter;
+use crate::math::kernel::vectors::{Block, WIDTH};
+use crate::model::destination::Destinations;
+use crate::value::{Node, Value};
+use std::sync::Arc;
+
+/// The filters of one movement so far, with everything that turns them into probabilities.
+#[derive(Clone, Debug)]
+pub(crate) struct Telescoped {
+    candidates: Vec<Candidate>,
+    classes: Arc<Classes>,
+    /// `t_k - t_1`.
+    elapsed: f64,
+    /// `k`.
+    observations: u64,
+    /// Whether the first observation's evidence counts, as in [`FilterBank::first_counts`].
+    first_counts: bool,
+    /// An integer near the logarithm of the weights' sum, for the probabilities after this observation.
+    shift: f64,
+    /// The same as the probabilities, once computed, suggest it for the next observation.
+    next_shift: f64,
+    /// Room for the weights where destinations stand in another order than their own.
+    aside: Vec<Block>,
+    node_weights: Vec<Block>,
+    work: Work,
+}
+
+/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is nothing beside it.
+pub(super) const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
+
+/// Probabilities below this are zero, so that the shift does not matter.
+const LEAST: f64 = 1.5e-241;
+
+impl Telescoped {
+    /// Filters with `p(x_1 | y_1)`, or with `p(x_1)` where the first observation's evidence counts, as [`FilterBank::begin`].
+    pub fn begin(configuration: &Configuration, destinations: &Destinations, first: &Gaussian) -> Self {
+        let filter = Filter::new(first, 1);
+        let filters = vec![&filter; configuration.motion.candidates.len()];
+        Self::new(configuration, destinations, &configuration.plan(destinations), first, &filters)
+    }
+
+    fn new(
+        configuration: &Configuration,
+        destinations: &Destinations,
+        plan: &Plan,
+        first: &Gaussian,
+        filters: &[&Filter],
+    ) -> Self {
+        let each = || configuration.motion.candidates.iter().zip(filters);
+        let axes = each().map(|(candidate, filter)| axes_of(candidate.model.as_ref(), first, filter)).collect();
+        let axes: Option<Vec<_>> = if configuration.observes_position { axes } else { None };
+        let classes = Arc::new(Classes::new(destinations, plan, axes.is_some()));
+        let mut axes = axes.filter(|_| classes.separable).unwrap_or_default().into_iter();
+        let candidates = each().map(|(candidate, filter)| Candidate {
+            model: Arc::clone(&candidate.model),
+            weight: candidate.weight,
+            source: match axes.next() {
+                Some((first, now)) => Source::Separable { first, now },
+                None => Source::Coupled(Box::new(Coupled { first: first.clone(), filter: (*filter).clone() })),
+            },
+            tables: Tables::default(),
+        });
+        Self {
+            candidates: candidates.collect(),
+            aside: Vec::new(),
+            classes,
+            elapsed: 0.0,
+            observations: u64::from(!configuration.first_counts),
+            first_counts: configuration.first_counts,
+            shift: 0.0,
+            next_shift: 0.0,
+            node_weights: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// Whether something has been observed that counts as evidence.
+    const fn has_evidence(&self) -> bool {
+        self.observations > !self.first_counts as u64
+    }
+
+    /// `t_k - t_1`.
+    pub const fn elapsed(&self) -> f64 {
+        self.elapsed
+    }
+
+    /// `k`, the number of observations.
+    pub const fn observations(&self) -> u64 {
+        self.observations
+    }
+
+    /// Whether some node with weight lies after `elapsed`.
+    pub fn is_alive(&self, elapsed: f64) -> bool {
+        self.classes.nodes.iter().any(|nodes| nodes.is_alive(elapsed))
+    }
+
+    /// Whether an observation can be taken axis by axis.
+    pub fn is_separable(&self) -> bool {
+        self.candidates.iter().all(|candidate| matches!(candidate.source, Source::Separable { .. }))
+    }
+
+    /// Takes in an observation, which allocates nothing as long as axes are separate.
+    ///
+    /// # Errors
+    /// As [`FilterBank::advance`]; nothing has changed then.
+    pub fn advance(
+        &mut self,
+        configuration: &Configuration,
+        destinations: &Destinations,
+        observed: &Observed<'_>,
+    ) -> Result<()> {
+        let step = observed.elapsed - self.elapsed;
+        if let Some(variances) = variances(observed).filter(|_| self.is_separable()) {
+            for candidate in &mut self.candidates {
+                if let Source::Separable { now, .. } = &mut candidate.source {
+                    now.advance(candidate.model.as_ref(), step, observed.position, &variances);
+                }
+            }
+        } else {
+            if self.is_separable() {
+                self.couple(destinations, &configuration.plan(destinations));
+            }
+            let measurement = observed.measurement()?;
+            let advance = |candidate: &Candidate| match &candidate.source {
+                Source::Separable { .. } => Ok(None),
+                Source::Coupled(coupled) => {
+                    advance_filter(&coupled.filter, candidate.model.as_ref(), step, &measurement).map(Some)
+                }
+            };
+            let advanced = self.candidates.iter().map(advance).collect::<Result<Vec<_>>>()?;
+            for (candidate, filter) in self.candidates.iter_mut().zip(advanced) {
+                if let (Source::Coupled(coupled), Some(filter)) = (&mut candidate.source, filter) {
+                    coupled.filter = filter;
+                }
+            }
+        }
+        self.elapsed = observed.elapsed;
+        self.observations += 1;
+        self.shift = self.next_shift;
+        Ok(())
+    }
+
+    /// The same filters densely, for everything but likelihoods.
+    pub fn dense(&self, configuration: &Configuration, destinations: &Destinations) -> Option<FilterBank> {
+        let (first, _) = self.candidates.first()?.coupled();
+        let mut bank = FilterBank::begin(configuration, destinations, first);
+        for (to, candidate) in bank.candidates.iter_mut().zip(&self.candidates) {
+            to.filter = candidate.coupled().1;
+        }
+        bank.elapsed = self.elapsed;
+        bank.observations = self.observations;
+        Some(bank)
+    }
+
+    /// What a snapshot keeps: the filters densely, and what the last bits of the probabilities depend on besides.
+    pub fn save(&self, configuration: &Configuration, destinations: &Destinations) -> Value {
+        let filters = self.dense(configuration, destinations).map_or(Value::Null, |bank| bank.save());
+        Value::map([("filters", filters), ("shifts", Value::exact_numbers(&[self.shift, self.next_shift]))])
+    }
+
+    /// The filters that [`Telescoped::save`] wrote.
+    ///
+    /// # Errors
+    /// Those of reading a value.
+    pub fn load(node: &Node<'_>, configuration: &Configuration, destinations: &Destinations) -> Result<Self> {
+        let fields = node.fields(&["filters", "shifts"])?;
+        let bank = FilterBank::load(&fields.required("filters")?, configuration, destinations)?;
+        let shifts = fields.required("shifts")?.exact_numbers(2)?;
+        let filters: Vec<&Filter> = bank.candidates.iter().map(|candidate| &candidate.filter).collect();
+        Ok(Self {
+            elapsed: bank.elapsed,
+            observations: bank.observations,
+            shift: shifts[0],
+            next_shift: shifts[1],
+            ..Self::new(configuration, destinations, &bank.plan, &bank.first, &filters)
+        })
+    }
+
+    /// Other destinations, in mid-movement: axes that had to be taken together for those before may not have to for these.
+    pub fn replan(&mut self, configuration: &Configuration, destinations: &Destinations, plan: &Plan) {
+        if configuration.observes_position && !self.is_separable() {
+            self.separate(destinations, plan);
+        }
+        self.place(destinations, plan);
+    }
+
+    /// From now on the axes are taken together. Every candidate is separable, or none is.
+    fn couple(&mut self, destinations: &Destinations, plan: &Plan) {
+        for candidate in &mut self.candidates {
+            if let Source::Separable { first, now } = &candidate.source {
+                candidate.source = Source::Coupled(Box::new(coupled_of(first, now)));
+            }
+        }
+        self.place(destinations, plan);
+    }
+
+    /// From now on each axis on its own, if that can be.
+    fn separate(&mut self, destinations: &Destinations, plan: &Plan) {
+        let axes = self.candidates.iter().map(|candidate| match &candidate.source {
+            Source::Coupled(coupled) => axes_of(candidate.model.as_ref(), &coupled.first, &coupled.filter),
+            Source::Separable { first, now } => Some((*first, *now)),
+        });
+        let Some(axes) = axes.collect::<Option<Vec<_>>>() else { return };
+        if !Classes::new(destinations, plan, true).separable {
+            return;
+        }
+        for (candidate, (first, now)) in self.candidates.iter_mut().zip(axes) {
+            candidate.source = Source::Separable { first, now };
+        }
+    }
+
+    fn place(&mut self, destinations: &Destinations, plan: &Plan) {
+        self.shift = self.next_shift;
+        self.classes = Arc::new(Classes::new(destinations, plan, self.is_separable()));
+        if self.is_separable() && !self.classes.separable {
+            return self.couple(destinations, plan);
+        }
+        for candidate in &mut self.candidates {
+            candidate.tables = Tables::default();
+        }
+    }
+
+    /// Liang (3) and (6): the probabilities of the destinations, in their order, and that of none of them, whose prior is
+    /// `none`. None where the priors remain: at the first observation, and where there is no likelihood that is a number above
+    /// zero. `destinations` are those that the filters began with or were last given.
+    pub fn probabilities(&mut self, destinations: &Destinations, none: f64, into: &mut Vec<f64>) -> Option<f64> {
+        if !self.has_evidence() {
+            return None;
+        }
+        let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
+        let sum = self.sum(destinations, &classes, classes.layout.room(&mut aside, into));
+        classes.layout.settle(&aside, into);
+        self.aside = aside;
+        let sum = sum?;
+        // as if the priors summed to one
+        let total = sum / classes.total;
+        // against it "none", whose ratio of densities is one, under the same shift
+        let (scale, none) = if none > 0.0 {
+            let level = (none / (1.0 - none)).log2() + self.log2_level();
+            let log = level - self.shift - total.log2();
+            ((1.0 + exp2(log)).recip(), (1.0 + exp2(-log)).recip())
+        } else {
+            (1.0, 0.0)
+        };
+        let beyond = total.log2().round();
+        self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
+        let (scale, least) = (scale / sum, LEAST * sum);
+        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
+        Some(none)
+    }
+
+    /// Writes the weights, and returns their sum.
+    fn sum(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
+        let mut sum = self.weights(destinations, classes, weights);
+        if !IN_RANGE.contains(&(sum / classes.total)) {
+            self.log2_sums(destinations, classes, weights);
+            let logs = weights.as_flattened().iter().zip(classes.priors(destinations).as_flattened());
+            let top = logs.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
+            let top = top.fold(f64::NEG_INFINITY, f64::max) - classes.total.log2();
+            if !top.is_finite() {
+                return None;
+            }
+            self.shift = top.round();
+            sum = self.weights(destinations, classes, weights);
+        }
+        (sum > 0.0 && sum.is_finite()).then_some(sum)
+    }
+
+    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order; `destinations` as in [`Telescoped::probabilities`].
+    pub fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
+        let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
+        let logs = classes.layout.room(&mut aside, into);
+        logs.fill([0.0; WIDTH]);
+        if self.has_evidence() {
+            self.log2_sums(destinations, &classes, logs);
+        }
+        classes.layout.settle(&aside, into);
+        self.aside = aside;
+        let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        for log in into {
+            let sum = *log * std::f64::consts::LN_2 + evidence;
+            // beyond the range of numbers, nothing is known
+            *log = if sum < f64::INFINITY { sum } else { f64::NEG_INFINITY };
+        }
+    }
+
+    /// The sum of the candidates' weights times what their evidence has over that of the first one, as a power of two.
+    fn log2_level(&self) -> f64 {
+        let top = self.candidates.iter().map(|candidate| self.lead(candidate)).fold(f64::NEG_INFINITY, f64::max);
+        let each = self.candidates.iter().map(|candidate| candidate.weight * exp2(self.lead(candidate) - top));
+        top + each.sum::<f64>().log2()
+    }
+
+    /// What a candidate's evidence has over that of the first one, as a power of two.
+    fn lead(&self, candidate: &Candidate) -> f64 {
+        let first = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        (candidate.log_evidence() - first) * std::f64::consts::LOG2_E
+    }
+
+    fn weights(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> f64 {
+        let origin = self.candidates.first().map_or([0.0; 3], Candidate::position);
+        let mut total = 0.0;
+        let mut prepared = None;
+        for class in &classes.classes {
+            if prepared != Some((class.nodes, class.end)) {
+                self.prepare(classes, class);
+                prepared = Some((class.nodes, class.end));
+            }
+            total += self.work.weigh(destinations, classes, class, origin, self.shift, weights);
+        }
+        total
+    }
+
+    fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, logs: &mut [Block]) {
+        let mut prepared = None;
+        for class in &classes.classes {
+            if prepared != Some((class.nodes, class.end)) {
+                self.prepare(classes, class);
+                prepared = Some((class.nodes, class.end));
+            }
+            self.work.log2_sums(destinations, classes, class, logs);
+        }
+    }
+
+    /// Computes the terms of a class under every candidate.
+    fn prepare(&mut self, classes: &Classes, class: &Class) {
+        let (Some(nodes), Some(end)) = (classes.nodes.get(class.nodes), classes.ends.get(class.end)) else { return };
+        let elapsed = self.elapsed;
+        nodes.weights_ahead(elapsed, &mut self.node_weights);
+        self.work.clear();
+        let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
+        for candidate in &mut self.candidates {
+            let lead = (candidate.log_evidence() - evidence) * std::f64::consts::LOG2_E;
+            candidate.prepare(class.nodes, nodes, end, elapsed, &self.node_weights, lead, &mut self.work);
+        }
+    }
+}
+
+/// `2^x`. The standard library's has a table of 4 kB.
+fn exp2(x: f64) -> f64 {
+    (x * std::f64::consts::LN_2).exp()
+}
+
+/// The variances in each axis, where the noise of each that was observed is its own.
+fn variances(observed: &Observed<'_>) -> Option<[f64; MOST]> {
+    let (noise, n) = (observed.noise, observed.noise.nrows());
+    let is_observed = |i: usize| observed.position.get(i).is_some_and(Option::is_some);
+    let independent = |i: usize, j: usize| noise[(i, j)] == 0.0 || !is_observed(i) || !is_observed(j);
+    let all = n <= MOST && (0..n).all(|i| (0..i).all(|j| independent(i, j)));
+    all.then(|| std::array::from_fn(|k| if k < n { noise[(k, k)] } else { 0.0 }))
+}

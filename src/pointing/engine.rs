@@ -1,0 +1,99 @@
+//! The pointing model as an engine.
+
+use super::Pointing;
+use super::course::Course;
+use super::parameters::{Parameters, axis_variances};
+use super::targets::Targets;
+use crate::engine::{Engine, Observed};
+use crate::error::Result;
+use crate::math::gaussian::Gaussian;
+use crate::model::destination::Destinations;
+use crate::posterior::arrival_time::ArrivalTime;
+use crate::posterior::remaining::Remaining;
+use crate::posterior::{Posterior, Shares};
+use crate::value::{Node, Value};
+use std::sync::Arc;
+
+/// One movement under the pointing model.
+#[derive(Clone, Debug)]
+pub(crate) struct PointingEngine(Pointing);
+
+impl PointingEngine {
+    /// Begins at `start`, the first position.
+    ///
+    /// # Errors
+    /// `out-of-range` where the noise is correlated between axes.
+    pub fn begin(
+        parameters: Arc<Parameters>,
+        destinations: &Destinations,
+        start: &[f64],
+        first: &Observed<'_>,
+    ) -> Result<Self> {
+        let variances = axis_variances(first.noise, "noise")?;
+        Ok(Self(Pointing::begin(parameters, targets(destinations), start, &variances)))
+    }
+
+    /// The engine that [`Engine::save`] wrote.
+    ///
+    /// # Errors
+    /// Those of reading a value.
+    pub fn load(node: &Node<'_>, parameters: Arc<Parameters>, destinations: &Destinations) -> Result<Self> {
+        let course = Course::load(node, destinations.dimensions())?;
+        Ok(Self(Pointing::resume(parameters, targets(destinations), course)))
+    }
+}
+
+impl Engine for PointingEngine {
+    fn advance(&mut self, _destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
+        let variances = axis_variances(observed.noise, "noise")?;
+        self.0.advance(observed.elapsed, observed.position, &variances);
+        Ok(())
+    }
+
+    fn observations(&self) -> u64 {
+        self.0.course().observations
+    }
+
+    fn probabilities(&mut self, _destinations: &Destinations, none: f64, posterior: &mut Posterior) {
+        posterior.none = self.0.posterior(none, &mut posterior.probabilities);
+    }
+
+    fn log_likelihoods(&mut self, _destinations: &Destinations, into: &mut Vec<f64>) {
+        self.0.log_likelihoods(into);
+    }
+
+    fn arrival(&mut self, _destinations: &Destinations, shares: Shares<'_>) -> Option<ArrivalTime> {
+        Some(self.0.arrival(shares))
+    }
+
+    fn remaining(&mut self, _destinations: &Destinations, shares: Shares<'_>, elapsed: f64) -> Option<Remaining> {
+        let Some([mean, low, high]) = self.0.entry_time(shares) else {
+            return Some(Remaining::until(&self.0.arrival(shares), elapsed));
+        };
+        Some(Remaining { mean, low, high })
+    }
+
+    fn state(&mut self, _destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
+        self.0.state(shares, later)
+    }
+
+    fn initial_state(&mut self, _destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
+        self.0.initial_state(shares)
+    }
+
+    fn replan(&mut self, destinations: &Destinations, _origin: Option<&[usize]>) {
+        self.0.replan(targets(destinations));
+    }
+
+    fn save(&self, _destinations: &Destinations) -> Value {
+        self.0.course().save()
+    }
+
+    fn boxed(&self) -> Box<dyn Engine> {
+        Box::new(self.clone())
+    }
+}
+
+fn targets(destinations: &Destinations) -> Arc<Targets> {
+    Arc::new(Targets::from(destinations))
+}
