@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
-//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! // a random walk observed at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
 //! let scenario: Scenario = serde_json::from_str(r#"{
 //!     "method": "algorithm1", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
@@ -25,7 +25,7 @@ use crate::math::gaussian::{Factor, condition, propagate};
 use crate::model::endpoint::Endpoint;
 use crate::value::{Node, Value};
 
-/// The engine: log likelihoods for each destination and node.
+/// Accumulated log likelihoods for each destination and node.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Algorithm1 {
     table: Vec<f64>,

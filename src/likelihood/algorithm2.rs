@@ -8,7 +8,7 @@
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
-//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! // a random walk observed at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
 //! let scenario: Scenario = serde_json::from_str(r#"{
 //!     "method": "algorithm2", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
@@ -29,7 +29,7 @@ use crate::model::endpoint::Endpoint;
 use crate::value::{Node, Value};
 use nalgebra::DVector;
 
-/// The engine: log likelihoods for each destination and node.
+/// Accumulated log likelihoods for each destination and node.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Algorithm2 {
     table: Vec<f64>,
@@ -51,11 +51,11 @@ impl Likelihood for Algorithm2 {
         for node in scene.nodes_ahead(scene.elapsed) {
             let length = node.covariance.nrows();
             // (12): x_{k-1} given the pseudo-observation
-            let whole = Endpoint::after(scene.motion, node.remaining + waited, length);
+            let total = Endpoint::after(scene.motion, node.remaining + waited, length);
             // (13): x_k given x_{k-1} and the pseudo-observation; L_y, and (I - L_y B_y) Q of the noise that is left
             let rest = Endpoint::after(scene.motion, node.remaining, length);
             let (Some(before), Some(onward)) = (
-                condition(&posterior, &whole.matrix, &(&whole.noise + &node.covariance)),
+                condition(&posterior, &total.matrix, &(&total.noise + &node.covariance)),
                 condition(&transition.noise, &rest.matrix, &(&rest.noise + &node.covariance)),
             ) else {
                 continue;
@@ -66,7 +66,7 @@ impl Likelihood for Algorithm2 {
             for &i in &node.group.members {
                 let i = i as usize;
                 let mean = step.before.mean(i);
-                let smoothed = &mean + &before.gain * scene.endpoint_error(i, &whole, &mean);
+                let smoothed = &mean + &before.gain * scene.endpoint_error(i, &total, &mean);
                 let moved: DVector<f64> =
                     &transition.transition * &smoothed + transition.constant(&scene.destinations.center(i));
                 let bridged = &moved + &onward.gain * scene.endpoint_error(i, &rest, &moved);

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
-//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! // a random walk observed at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
 //! let scenario: Scenario = serde_json::from_str(r#"{
 //!     "method": "bridging", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
@@ -29,7 +29,7 @@ use crate::model::motion::Transition;
 use crate::value::{Node, Value};
 use nalgebra::{DMatrix, DVector};
 
-/// The engine: a covariance for each group and node, a mean and a log evidence for each destination and node.
+/// The bridged filters: a covariance for each group and node, a mean and a log evidence for each destination and node.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bridging {
     /// `s + l` square, one for each group and node.

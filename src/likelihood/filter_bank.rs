@@ -176,7 +176,7 @@ impl FilterBank {
         Ok(())
     }
 
-    /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as [`Plan::rows`] says.
+    /// For each noise candidate `ln w_c + log p(y_2:k, T_n | y_1, D_i, c)`, laid out as [`Plan::rows`] is.
     pub fn joint(&self, destinations: &Destinations) -> Vec<Vec<f64>> {
         let joint = |candidate: &Candidate| {
             let mut table = vec![0.0; self.plan.rows.last().copied().unwrap_or(0)];

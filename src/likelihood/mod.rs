@@ -10,16 +10,16 @@
 //! | `singleFilterApproximate` | [`single_filter`] | Ardeshiri (15), Table 1 |
 //!
 //! Within a family the methods give the same numbers to rounding; the families differ from each other. Each gives the states of its
-//! own family too. Observations at one time are observations each, as in the papers: two of one place say more than one.
+//! own family too. Observations at one time are observations each, as in the papers: two of one place are more evidence than one.
 
 pub mod algorithm1;
 pub mod algorithm2;
 pub mod bridging;
-pub mod configuration;
-pub mod expiring;
-pub mod filter_bank;
-pub mod node_posterior;
-pub mod plan;
+pub(crate) mod configuration;
+pub(crate) mod expiring;
+pub(crate) mod filter_bank;
+pub(crate) mod node_posterior;
+pub(crate) mod plan;
 pub mod pseudo_observation;
 pub mod single_filter;
 pub(crate) mod states;
@@ -38,13 +38,6 @@ use states::{StateQuery, States};
 use std::fmt;
 
 /// The six methods of the papers.
-///
-/// ```
-/// use whither::likelihood::Method;
-/// assert_eq!(Method::SingleFilter.name(), "singleFilter");
-/// let accumulating = Method::NAMES.iter().filter(|(_, method)| method.accumulates());
-/// assert!(accumulating.map(|(name, _)| *name).eq(["algorithm1", "algorithm2", "bridging"]));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The telescoped form of Liang's prediction errors: one filter, then two densities for each destination and node.
@@ -137,7 +130,7 @@ pub(crate) trait Likelihood: Send + Sync {
     /// Takes one more observation in; `scene` is as after it.
     fn advance(&mut self, _scene: &Scene<'_>, _step: &Step<'_>) {}
 
-    /// Writes `log p(y_2:k | y_1, D_i, T_n)` for every destination and node, laid out as [`Plan::rows`] says; minus infinity
+    /// Writes `log p(y_2:k | y_1, D_i, T_n)` for every destination and node, laid out as [`Plan::rows`] is; minus infinity
     /// for nodes that have passed. Of `y_1:k` where the first observation's evidence counts; where it does not, never called for
     /// the first observation.
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]);
@@ -177,7 +170,7 @@ pub(crate) struct NodeOfGroup<'a> {
     pub group: &'a Group,
     /// The node's place in its grid.
     pub index: usize,
-    /// A number of its own for each (group, node), counting over the whole plan.
+    /// A number of its own for each (group, node), counting over all of the plan.
     pub number: usize,
     /// `T_n - t_k`, above zero.
     pub remaining: f64,

@@ -6,21 +6,8 @@ use crate::model::destination::Destinations;
 use std::collections::HashMap;
 
 /// Destinations that have both the arrival nodes and the kind of endpoint in common: every matrix serves all of them.
-///
-/// ```
-/// use whither::{Value, likelihood::plan::Plan, math::quadrature::Quadrature};
-/// use whither::{model::{arrival::Arrival, destination::Destinations}, value::Node};
-/// let value: Value = serde_json::from_str(r#"[
-///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 24 }
-/// ]"#).unwrap();
-/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
-/// let plan = Plan::new(&destinations, &Arrival::Uniform { from: 1.0, to: 2.0 }, &Quadrature::default(), &[0.0]);
-/// // two sizes, so two kinds, at the same times
-/// assert_eq!((plan.grids.len(), plan.groups.len()), (1, 2));
-/// assert_eq!((plan.groups[1].kind, &plan.groups[1].members[..]), (1, &[1][..]));
-/// ```
 #[derive(Clone, Debug)]
-pub struct Group {
+pub(crate) struct Group {
     /// Which grid of nodes.
     pub grid: usize,
     /// Which kind of endpoint.
@@ -30,22 +17,8 @@ pub struct Group {
 }
 
 /// The arrival nodes of all destinations. Times count from the first observation, or from now for a `horizon`.
-///
-/// ```
-/// use whither::{Value, likelihood::plan::Plan, math::quadrature::Quadrature};
-/// use whither::{model::{arrival::Arrival, destination::Destinations}, value::Node};
-/// let value: Value = serde_json::from_str(r#"[
-///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 12, "prior": 3 }
-/// ]"#).unwrap();
-/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
-/// let arrival = Arrival::Uniform { from: 1.0, to: 2.0 };
-/// let plan = Plan::new(&destinations, &arrival, &Quadrature::Trapezoid { points: 3 }, &[0.0]);
-/// assert_eq!(plan.grid(1).times, [1.0, 1.5, 2.0]);
-/// assert_eq!(plan.rows, [0, 3, 6]);
-/// assert!(plan.is_alive(1.9) && !plan.is_alive(2.1));
-/// ```
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The distinct grids.
     pub grids: Vec<Grid>,
     /// The destinations by grid and kind.
@@ -62,7 +35,6 @@ pub struct Plan {
 
 impl Plan {
     /// The nodes for `destinations`, whose arrival priors are their own or `arrival`; `start` is the first position.
-    #[must_use]
     pub fn new(destinations: &Destinations, arrival: &Arrival, quadrature: &Quadrature, start: &[f64]) -> Self {
         let mut plan = Self {
             grids: Vec::new(),
@@ -108,37 +80,31 @@ impl Plan {
     }
 
     /// The nodes of destination `i`.
-    #[must_use]
     pub fn grid(&self, i: usize) -> &Grid {
         &self.grids[self.grid_of[i] as usize]
     }
 
     /// Whether the times of `grid` count from now.
-    #[must_use]
     pub fn is_horizon(&self, grid: usize) -> bool {
         self.horizons[grid]
     }
 
     /// The time from `elapsed` until a node of `grid`; zero or less where it has passed.
-    #[must_use]
     pub fn remaining(&self, grid: usize, time: f64, elapsed: f64) -> f64 {
         if self.horizons[grid] { time } else { time - elapsed }
     }
 
-    /// A node of `grid` as a time since the first observation, seen at `elapsed`.
-    #[must_use]
+    /// A node of `grid` as a time since the first observation, from `elapsed` on where it counts from now.
     pub fn since_first(&self, grid: usize, time: f64, elapsed: f64) -> f64 {
         if self.horizons[grid] { time + elapsed } else { time }
     }
 
     /// Whether some destination of `grid` has a prior above zero.
-    #[must_use]
     pub fn is_possible(&self, grid: usize) -> bool {
         self.possible[grid]
     }
 
     /// Whether some node that has weight, of a destination that has, still lies after `elapsed`.
-    #[must_use]
     pub fn is_alive(&self, elapsed: f64) -> bool {
         self.grids.iter().enumerate().any(|(g, grid)| {
             let mut nodes = grid.times.iter().zip(&grid.log_weights);

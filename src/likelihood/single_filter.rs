@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
-//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! // a random walk observed at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
 //! let scenario: Scenario = serde_json::from_str(r#"{
 //!     "method": "singleFilter", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },
@@ -22,7 +22,7 @@
 //! let mut predictor = Predictor::new(&scenario);
 //! predictor.observe(0.0, &[0.0]).unwrap();
 //! predictor.observe(1.0, &[1.0]).unwrap();
-//! // (12) is what the bridge says: y_2 = 1 is of N(2, 5/2)
+//! // (12) equals the bridge: y_2 = 1 is of N(2, 5/2)
 //! let expected = -0.5 * (5.0 * std::f64::consts::PI).ln() - 0.2;
 //! assert!((predictor.log_likelihoods()[0] - expected).abs() < 1e-13);
 //! ```
@@ -33,11 +33,11 @@ use crate::math::gaussian::{Factor, LN_2_PI, propagate, root, triangularise};
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
-/// The exact engine, (12); it keeps nothing beyond the filter.
+/// The exact likelihoods, (12); they keep nothing beyond the filter.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SingleFilter;
 
-/// The approximate engine, (15); it keeps nothing beyond the filter.
+/// The approximate likelihoods, (15); they keep nothing beyond the filter.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SingleFilterApproximate;
 

@@ -6,8 +6,6 @@ use super::coefficients::{Sight, Work};
 use super::conversion::coupled_of;
 use super::coupled::{self, Coupled};
 use super::separable::{Axes, MOST};
-use crate::math::gaussian::Gaussian;
-use crate::math::kalman::Filter;
 use crate::math::kernel::mixture::AXES;
 use crate::math::kernel::vectors::Block;
 use crate::model::motion::{MotionModel, Transition};
@@ -52,14 +50,11 @@ impl Candidate {
         }
     }
 
-    /// `p(x_1 | y_1)` and the filter, of the complete state.
-    pub fn coupled(&self) -> (Gaussian, Filter) {
+    /// The filter of the complete state.
+    pub fn coupled(&self) -> Coupled {
         match &self.source {
-            Source::Separable { first, now } => {
-                let Coupled { first, filter } = coupled_of(first, now);
-                (first, filter)
-            }
-            Source::Coupled(coupled) => (coupled.first.clone(), coupled.filter.clone()),
+            Source::Separable { first, now } => coupled_of(first, now),
+            Source::Coupled(coupled) => Coupled::clone(coupled),
         }
     }
 
@@ -77,8 +72,8 @@ impl Candidate {
         }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
     /// Adds the terms of a class: its nodes with their `weights`, and its endpoint.
+    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
     pub fn prepare(
         &mut self,
         number: usize,

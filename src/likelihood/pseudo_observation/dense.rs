@@ -10,7 +10,7 @@
 //!
 //! ```
 //! use whither::{Predictor, Scenario};
-//! // a random walk seen at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
+//! // a random walk observed at 0 and, after one of two seconds, at 1, on its way to N(4, 3); every noise is 1
 //! let scenario: Scenario = serde_json::from_str(r#"{
 //!     "method": "pseudoObservation", "arrival": { "type": "discrete", "times": [2], "weights": [1] },
 //!     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 1 },

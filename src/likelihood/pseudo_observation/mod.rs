@@ -1,6 +1,6 @@
 //! `pseudoObservation`, at the speed of the machine, where the motion model does not depend on the destination.
 //!
-//! The telescoped form of [`dense`] is the ratio of two Gaussian densities of the endpoint, so its
+//! The telescoped form of `dense` is the ratio of two Gaussian densities of the endpoint, so its
 //! logarithm is a quadratic in the endpoint's mean whose coefficients depend on nothing but the node and the class of the
 //! endpoint's covariance:
 //!
@@ -21,7 +21,7 @@
 //! | `conversion` | from separate axes to the complete state and back |
 //! | `math::kernel::mixture` | the sum |
 //!
-//! [`dense`] computes the same one pair at a time: the oracle, which a test compares this with.
+//! `dense` computes the same one pair at a time: the oracle, which a test compares this with.
 
 pub(crate) mod axis_endpoint;
 mod candidate;

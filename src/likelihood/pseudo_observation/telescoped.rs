@@ -33,7 +33,7 @@ pub(crate) struct Telescoped {
     shift: f64,
     /// The same as the probabilities, once computed, suggest it for the next observation.
     next_shift: f64,
-    /// Room for the weights where destinations stand in another order than their own.
+    /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
     node_weights: Vec<Block>,
     work: Work,
@@ -89,8 +89,8 @@ impl Telescoped {
     }
 
     /// Whether something has been observed that counts as evidence.
-    const fn has_evidence(&self) -> bool {
-        self.observations > !self.first_counts as u64
+    fn has_evidence(&self) -> bool {
+        self.observations > u64::from(!self.first_counts)
     }
 
     /// `t_k - t_1`.
@@ -156,10 +156,10 @@ impl Telescoped {
 
     /// The same filters densely, for everything but likelihoods.
     pub fn dense(&self, configuration: &Configuration, destinations: &Destinations) -> Option<FilterBank> {
-        let (first, _) = self.candidates.first()?.coupled();
+        let first = self.candidates.first()?.coupled().first;
         let mut bank = FilterBank::begin(configuration, destinations, first);
         for (to, candidate) in bank.candidates.iter_mut().zip(&self.candidates) {
-            to.filter = candidate.coupled().1;
+            to.filter = candidate.coupled().filter;
         }
         bank.elapsed = self.elapsed;
         bank.observations = self.observations;
@@ -263,7 +263,7 @@ impl Telescoped {
         Some(none)
     }
 
-    /// Writes the weights, and returns their sum.
+    /// Writes the weights, under another shift where the present one leads out of range, and returns their sum.
     fn sum(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
         let mut sum = self.weights(destinations, classes, weights);
         if !IN_RANGE.contains(&(sum / classes.total)) {
@@ -298,19 +298,20 @@ impl Telescoped {
         }
     }
 
-    /// The sum of the candidates' weights times what their evidence has over that of the first one, as a power of two.
+    /// The logarithm to base 2 of the candidates' mean evidence over that of the first one.
     fn log2_level(&self) -> f64 {
         let top = self.candidates.iter().map(|candidate| self.lead(candidate)).fold(f64::NEG_INFINITY, f64::max);
         let each = self.candidates.iter().map(|candidate| candidate.weight * exp2(self.lead(candidate) - top));
         top + each.sum::<f64>().log2()
     }
 
-    /// What a candidate's evidence has over that of the first one, as a power of two.
+    /// The logarithm to base 2 of a candidate's evidence over that of the first one.
     fn lead(&self, candidate: &Candidate) -> f64 {
         let first = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         (candidate.log_evidence() - first) * std::f64::consts::LOG2_E
     }
 
+    /// Writes the weights under the present shift, and returns their sum.
     fn weights(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> f64 {
         let origin = self.candidates.first().map_or([0.0; 3], Candidate::position);
         let mut total = 0.0;
