@@ -141,6 +141,7 @@ pub use model::matrix::Matrix;
 pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};
 pub use model::per_axis::PerAxis;
+pub use pointing::parameters::Parameters as PointingConstants;
 pub use posterior::Best;
 pub use posterior::arrival_time::ArrivalTime;
 pub use posterior::remaining::Remaining;

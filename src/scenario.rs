@@ -295,7 +295,9 @@ impl Engine {
                 }
             }
             let node = fields.required("pointing")?;
-            return Parameters::read(&node, motion, observation, initial).map(|p| Self::Pointing(Arc::new(p)));
+            return Parameters::read(&node)?
+                .with_filter(motion, observation, initial)
+                .map(|p| Self::Pointing(Arc::new(p)));
         };
         for (key, extra) in
             [("pointing", fields.optional("pointing").is_some()), ("motion.speedNoise", motion.speed_noise.is_some())]

@@ -3,20 +3,10 @@
 use super::endpoint::{inverse, times};
 use super::targets::Extent;
 use super::{Vector, dot};
-use crate::error::{Code, Result};
-use crate::value::{Node, Value};
 
 /// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
 /// that it may be going to, and how long the movement has lasted. The nodes' own mean is too early, since their work is to
 /// rank destinations.
-///
-/// ```
-/// use whither::pointing::entry_time::EntryTime;
-/// let entry = EntryTime { offset: 0.0, nodes: 1.0, near: -2.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
-/// let [median, low, high] = entry.at(0.3f64.ln(), 0.0, 0.8);
-/// assert!((median - 0.3).abs() < 1e-12 && low < 0.12 && high > 0.8);
-/// assert!(entry.at(0.3f64.ln(), 0.9, 0.8)[0] < 0.05); // beside the target
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryTime {
     /// `ln median = offset + nodes E[ln R] + near E[distance/(distance + e)] + elapsed t/(t + 1 s)`, with `e` the way to the
@@ -38,45 +28,6 @@ pub struct EntryTime {
 }
 
 impl EntryTime {
-    /// Reads `{ offset, nodes, near, distance, elapsed, low, high }`.
-    ///
-    /// # Errors
-    /// Those of reading a value; `out-of-range`.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["offset", "nodes", "near", "distance", "elapsed", "low", "high"])?;
-        let number = |key: &'static str| fields.number(key);
-        let (low, high) = (number("low")?, number("high")?);
-        if low >= 0.0 {
-            return Err(fields.required("low")?.error(Code::OutOfRange, "must be less than 0"));
-        }
-        if high <= 0.0 {
-            return Err(fields.required("high")?.error(Code::OutOfRange, "must be greater than 0"));
-        }
-        Ok(Self {
-            offset: number("offset")?,
-            nodes: number("nodes")?,
-            near: number("near")?,
-            distance: fields.positive("distance")?,
-            elapsed: number("elapsed")?,
-            low,
-            high,
-        })
-    }
-
-    /// As a scenario writes it.
-    #[must_use]
-    pub fn to_value(&self) -> Value {
-        Value::map([
-            ("offset", Value::Number(self.offset)),
-            ("nodes", Value::Number(self.nodes)),
-            ("near", Value::Number(self.near)),
-            ("distance", Value::Number(self.distance)),
-            ("elapsed", Value::Number(self.elapsed)),
-            ("low", Value::Number(self.low)),
-            ("high", Value::Number(self.high)),
-        ])
-    }
-
     /// How near a destination is, from 1 in it to 0 far away: `offset` is the way to its centre, `extent` is its own.
     #[must_use]
     pub fn nearness(&self, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {

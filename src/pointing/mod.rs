@@ -19,11 +19,13 @@
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
 
 pub(crate) mod course;
+pub(crate) mod defaults;
 mod destinations;
 pub(crate) mod endpoint;
 pub(crate) mod engine;
 pub mod entry_time;
 pub(crate) mod evidence;
+mod form;
 pub(crate) mod from_start;
 pub(crate) mod kernel;
 pub mod parameters;
