@@ -3,6 +3,7 @@
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { homedir } from "node:os";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { compile } from "./cargo.mjs";
 import { incremental } from "./incremental.mjs";
 import { answer, main, root, run } from "./run.mjs";
@@ -32,30 +33,31 @@ const instructions = [
   "sign-ext",
 ];
 
-export async function buildWasm() {
+/** With `dev` quickly, for trying things: hardly optimised by the compiler, not at all by wasm-opt. */
+export async function buildWasm({ dev = false } = {}) {
+  const variant = dev ? " dev" : "";
   const compiled = modules.map(({ name }) => `target/wasm/${name}.wasm`);
   // Cargo by itself would compile all whenever it is asked, since they come to the same place.
   const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
-  await incremental("wasm-modules", { inputs: sources, outputs: compiled, doing: null }, async () => {
-    for (const [i, module] of modules.entries()) await toWasm(module, compiled[i]);
+  await incremental("wasm-modules", { inputs: sources, outputs: compiled, variant, doing: null }, async () => {
+    for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : "wasm");
   });
   const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
-  await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`), doing: null }, async () => {
+  await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`), variant, doing: null }, async () => {
     rmSync(join(root, generated), { recursive: true, force: true });
     await compileTools();
     for (const [i, { name, bytes }] of modules.entries()) {
       await bindgen(compiled[i], name);
-      await during(`making ${name}.wasm small`, async () => {
-        await optimise(name);
-        await embed(name, bytes);
-      });
+      const file = join(root, `${generated}/${name}_bg.wasm`);
+      if (dev) embed(name, bytes, gzipSync(readFileSync(file)));
+      else await during(`making ${name}.wasm small`, async () => embed(name, bytes, await small(name)));
     }
   });
 }
 
 /** These flags replace those of .cargo/config.toml. */
-async function toWasm({ name, features }, file) {
+async function toWasm({ name, features }, file, profile) {
   const sysroot = await answer("rustc", ["--print", "sysroot"]);
   const flags = [
     "-Ctarget-feature=+simd128",
@@ -65,10 +67,10 @@ async function toWasm({ name, features }, file) {
     `--remap-path-prefix=${root}=`,
   ];
   const parts = ["--features", features.join()];
-  const args = ["build", "--lib", ...parts, "--target", target, "--profile", "wasm", "--target-dir", "target"];
+  const args = ["build", "--lib", ...parts, "--target", target, "--profile", profile, "--target-dir", "target"];
   await compile(`compiling ${name} to WebAssembly`, args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
   mkdirSync(join(root, file, ".."), { recursive: true });
-  copyFileSync(join(root, `target/${target}/wasm/whither.wasm`), join(root, file));
+  copyFileSync(join(root, `target/${target}/${profile}/whither.wasm`), join(root, file));
 }
 
 const tools = ["--package", "xtask", "--profile", "xtask", "--target-dir", "target"];
@@ -99,18 +101,20 @@ async function bindgen(compiled, name) {
   rmSync(file("_bg.js"));
 }
 
-async function optimise(name) {
+/** Makes the file small, and gives what it is under gzip. */
+async function small(name) {
   const file = `${generated}/${name}_bg.wasm`;
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = instructions.map((set) => `--enable-${set}`);
   // Large functions with a single caller stay functions: inlined they compress worse, by 6%.
   const size = ["-Oz", "--one-caller-inline-max-function-size=10"];
   await run("node", [tool, ...size, ...enabled, "--strip-debug", "--strip-target-features", file, "-o", file]);
+  await xtask("gzip", file, `target/wasm/${name}.wasm.gz`);
+  return readFileSync(join(root, `target/wasm/${name}.wasm.gz`));
 }
 
-async function embed(name, bytes) {
-  await xtask("gzip", `${generated}/${name}_bg.wasm`, `target/wasm/${name}.wasm.gz`);
-  const packed = readFileSync(join(root, `target/wasm/${name}.wasm.gz`));
+/** Writes the module of the packed bytes. */
+function embed(name, bytes, packed) {
   packed[9] = 255; // the field of the header that names the operating system
   const base64 = JSON.stringify(packed.toString("base64"));
   writeFileSync(join(root, generated, `${bytes}.js`), `export const base64 = ${base64};\n`);

@@ -29,17 +29,22 @@ const syntax = {
   supported: { "class-static-blocks": false },
 };
 
-export async function build() {
+/** With `dev` quickly, for trying things: neither optimised nor checked, and without declarations. */
+export async function build({ dev = false } = {}) {
   await setUp();
-  await buildWasm();
+  await buildWasm({ dev });
   const inputs = ["js", "tsconfig.json", "package.json", "package-lock.json", "scripts/build.mjs"];
   const files = ["dist/index.js", "dist/types/index.d.ts", ...modules.map(({ name }) => `dist/${name}.wasm`)];
   const outputs = [...files, ...beside.flatMap((name) => [`${name}.js`, `${name}.d.ts`])];
-  await incremental("dist", { inputs, outputs, doing: "building the package, dist/" }, async () => {
-    await run("node", ["node_modules/typescript/bin/tsc", "--project", "tsconfig.json"]);
-    rmSync(dist, { recursive: true, force: true });
+  // its declarations stay as they were: those who type-check build it all
+  const doing = "building the package, dist/";
+  await incremental("dist", { inputs, outputs: dev ? [] : outputs, variant: dev ? " dev" : "", doing }, async () => {
+    if (!dev) {
+      await run("node", ["node_modules/typescript/bin/tsc", "--project", "tsconfig.json"]);
+      rmSync(dist, { recursive: true, force: true });
+    }
     await bundle();
-    await declare();
+    if (!dev) await declare();
     for (const { name, bytes } of modules) {
       copyFileSync(join(root, `js/generated/${bytes}.js`), join(dist, `${bytes}.js`));
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));

@@ -7,12 +7,12 @@ import { during } from "./stage.mjs";
 
 /**
  * Does `work` unless it was done before with the same `inputs` (files and folders, by their content) and its `outputs` are
- * still there. Paths are relative to the repository; what is in `ignore` does not count. It is told as `doing` while it is
- * done, unless that is null: then `work` tells its own stages.
+ * still there. Paths are relative to the repository; what is in `ignore` does not count. Of several variants the outputs hold one:
+ * another has to be done again. `doing` is printed while it is done, unless that is null: then `work` prints its own stages.
  */
-export async function incremental(name, { inputs, ignore = null, outputs, doing = `building ${name}` }, work) {
+export async function incremental(name, { inputs, ignore = null, outputs, variant = "", doing = `building ${name}` }, work) {
   const stamp = join(root, "target/stamps", name);
-  const now = contentHash(inputs, ignore);
+  const now = contentHash(inputs, ignore) + variant;
   const done = existsSync(stamp) && readFileSync(stamp, "utf8") === now;
   if (done && outputs.every((output) => existsSync(join(root, output)))) return;
   await (doing === null ? work() : during(doing, work));

@@ -17,6 +17,13 @@ const types = {
   ".woff2": "font/woff2",
 };
 
+/** The port that the variable PORT names. */
+export function wantedPort() {
+  const port = Number(process.env.PORT ?? 8080);
+  if (Number.isInteger(port) && port >= 0 && port <= 65535) return port;
+  throw new Failure(`PORT is ${JSON.stringify(process.env.PORT)}: it must be a number from 0 to 65535`);
+}
+
 /**
  * Serves `folder` on this machine, at `path` (`/sub/path/`); a `port` of 0 is any that is free.
  * `headers` go with every answer.
