@@ -7,8 +7,7 @@
 //! | [`pointing::engine`](crate::pointing::engine) | `pointing` |
 //!
 //! A scenario begins its engine at the first observation (`scenario::begin`), and loads it from a snapshot. Times are seconds
-//! since the first observation. `destinations` are always those that the engine began with or was last given by
-//! [`Engine::replan`].
+//! since the first observation.
 
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
@@ -21,6 +20,7 @@ use crate::posterior::{Posterior, Shares};
 use crate::value::Value;
 use nalgebra::DMatrix;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// One observation, checked.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ pub(crate) trait Engine: Debug + Send + Sync {
     ///
     /// # Errors
     /// `out-of-range`, `not-finite`, and those of the noise where the engine cannot use it; nothing has changed then.
-    fn advance(&mut self, destinations: &Destinations, observed: &Observed<'_>) -> Result<()>;
+    fn advance(&mut self, observed: &Observed<'_>) -> Result<()>;
 
     /// How many observations there were.
     fn observations(&self) -> u64;
@@ -62,30 +62,30 @@ pub(crate) trait Engine: Debug + Send + Sync {
     }
 
     /// Liang (3): writes the probabilities of the destinations and of none of them, whose prior is `none`.
-    fn probabilities(&mut self, destinations: &Destinations, none: f64, posterior: &mut Posterior);
+    fn probabilities(&mut self, none: f64, posterior: &mut Posterior);
 
     /// Writes `log p(y_2:k | y_1, D_i)`, marginalised over arrival time and noise.
-    fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>);
+    fn log_likelihoods(&mut self, into: &mut Vec<f64>);
 
     /// The posterior of the arrival time, mixed over destinations by their shares; none where they cannot be reached any more.
-    fn arrival(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<ArrivalTime>;
+    fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime>;
 
     /// The time to go from `elapsed`, that of the latest observation.
-    fn remaining(&mut self, destinations: &Destinations, shares: Shares<'_>, elapsed: f64) -> Option<Remaining> {
-        self.arrival(destinations, shares).map(|arrival| Remaining::until(&arrival, elapsed))
+    fn remaining(&mut self, shares: Shares<'_>, elapsed: f64) -> Option<Remaining> {
+        self.arrival(shares).map(|arrival| Remaining::until(&arrival, elapsed))
     }
 
     /// The state `later` seconds after the latest observation, given that the object goes to one of `shares`.
-    fn state(&mut self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian>;
+    fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian>;
 
     /// The state at the first observation, given all observations.
-    fn initial_state(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian>;
+    fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian>;
 
     /// Other destinations in mid-movement; `origin` holds which old one each was, where the motion model depends on them.
-    fn replan(&mut self, destinations: &Destinations, origin: Option<&[usize]>);
+    fn replan(&mut self, destinations: &Arc<Destinations>, origin: Option<&[usize]>);
 
     /// What a snapshot keeps.
-    fn save(&self, destinations: &Destinations) -> Value;
+    fn save(&self) -> Value;
 
     /// A copy of its own.
     fn boxed(&self) -> Box<dyn Engine>;

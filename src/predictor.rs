@@ -115,7 +115,7 @@ impl Predictor {
             self.stale = true;
             return Ok(());
         };
-        movement.advance(&self.scenario, &self.destinations, time, position, noise)?;
+        movement.advance(&self.scenario, time, position, noise)?;
         self.stale |= !movement.engine.expired();
         Ok(())
     }
@@ -126,8 +126,8 @@ impl Predictor {
         }
         let none = self.scenario.none;
         match &mut self.movement {
-            Some(movement) => movement.engine.probabilities(&self.destinations, none, &mut self.posterior),
-            None => self.posterior.set_to_prior(&self.destinations, none),
+            Some(movement) => movement.engine.probabilities(none, &mut self.posterior),
+            None => self.posterior.set_to_prior(self.destinations.priors(), none),
         }
     }
 
@@ -207,7 +207,7 @@ impl Predictor {
     /// where the first observation's evidence counts (`initial.evidence`).
     pub fn log_likelihoods(&mut self) -> &[f64] {
         match &mut self.movement {
-            Some(movement) => movement.engine.log_likelihoods(&self.destinations, &mut self.log_likelihoods),
+            Some(movement) => movement.engine.log_likelihoods(&mut self.log_likelihoods),
             None => {
                 self.log_likelihoods.clear();
                 self.log_likelihoods.resize(self.destinations.len(), 0.0);
@@ -231,14 +231,14 @@ impl Predictor {
         let only = id.map(|id| self.destinations.index_of(id)).transpose()?;
         self.refresh();
         let Self { movement, posterior, destinations, .. } = self;
-        Ok(movement.as_mut().and_then(|movement| movement.arrival(posterior, destinations, only)))
+        Ok(movement.as_mut().and_then(|movement| movement.arrival(posterior, destinations.priors(), only)))
     }
 
     /// The time to go and an interval, from the posterior of the arrival time; none before the second observation and after every
     /// node has passed.
     pub fn remaining(&mut self) -> Option<Remaining> {
         self.refresh();
-        self.movement.as_mut()?.remaining(&self.posterior, &self.destinations)
+        self.movement.as_mut()?.remaining(&self.posterior, self.destinations.priors())
     }
 
     /// The state now, given that the object is going to one of the destinations; none before the first observation. Each method
@@ -251,7 +251,7 @@ impl Predictor {
     /// The state at the first observation given all of them, `p(x_1 | y_1:k)`; none before the first observation.
     pub fn initial_state(&mut self) -> Option<Gaussian> {
         self.refresh();
-        self.movement.as_mut()?.initial_state(&self.posterior, &self.destinations)
+        self.movement.as_mut()?.initial_state(&self.posterior, self.destinations.priors())
     }
 
     /// The state at `time`, which is the last observation's or later, by the method's own family as [`Predictor::state`]; none
@@ -290,7 +290,7 @@ impl Predictor {
 
     fn state_after(&mut self, later: f64, only: Option<usize>) -> Option<Gaussian> {
         self.refresh();
-        self.movement.as_mut()?.state(&self.posterior, &self.destinations, later, only)
+        self.movement.as_mut()?.state(&self.posterior, self.destinations.priors(), later, only)
     }
 
     /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.

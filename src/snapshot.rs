@@ -30,7 +30,7 @@ impl Predictor {
     /// ```
     #[must_use]
     pub fn snapshot(&self) -> Value {
-        let movement = self.movement.as_ref().map_or(Value::Null, |movement| movement.save(&self.destinations));
+        let movement = self.movement.as_ref().map_or(Value::Null, Movement::save);
         let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
         let scenario = self.scenario.to_value_with(&self.destinations);
         let body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);

@@ -17,6 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct Stepwise {
     configuration: Arc<Configuration>,
+    destinations: Arc<Destinations>,
     filters: Expiring<FilterBank>,
     /// Of the filters whose likelihoods hold, once it has been asked for.
     nodes: Option<NodePosterior>,
@@ -24,39 +25,44 @@ pub(crate) struct Stepwise {
 
 impl Stepwise {
     /// Begins with `p(x_1 | y_1)`, or before the first observation, with `p(x_1)`, where its evidence counts.
-    pub fn begin(configuration: Configuration, destinations: &Destinations, first: Gaussian) -> Self {
+    pub fn begin(configuration: Configuration, destinations: &Arc<Destinations>, first: Gaussian) -> Self {
         let filters = Expiring::new(FilterBank::begin(&configuration, destinations, first));
-        Self::with(Arc::new(configuration), filters)
+        Self::with(Arc::new(configuration), Arc::clone(destinations), filters)
     }
 
     /// Goes on with these filters.
-    pub const fn with(configuration: Arc<Configuration>, filters: Expiring<FilterBank>) -> Self {
-        Self { configuration, filters, nodes: None }
+    pub const fn with(
+        configuration: Arc<Configuration>,
+        destinations: Arc<Destinations>,
+        filters: Expiring<FilterBank>,
+    ) -> Self {
+        Self { configuration, destinations, filters, nodes: None }
     }
 
     /// The engine that [`Engine::save`] wrote; the configuration's start is taken from there.
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, configuration: Configuration, destinations: &Destinations) -> Result<Self> {
+    pub fn load(node: &Node<'_>, configuration: Configuration, destinations: &Arc<Destinations>) -> Result<Self> {
         let fields = node.fields(&["start", "filters"])?;
         let configuration = configuration.load(&fields.required("start")?)?;
         let load = |node: &Node<'_>| FilterBank::load(node, &configuration, destinations);
         let filters = Expiring::load(&fields.required("filters")?, load)?;
-        Ok(Self::with(Arc::new(configuration), filters))
+        Ok(Self::with(Arc::new(configuration), Arc::clone(destinations), filters))
     }
 
-    fn nodes(&mut self, destinations: &Destinations) -> (&Expiring<FilterBank>, &NodePosterior) {
-        let Self { filters, nodes, .. } = self;
+    fn nodes(&mut self) -> (&Expiring<FilterBank>, &NodePosterior) {
+        let Self { destinations, filters, nodes, .. } = self;
         let nodes = nodes.get_or_insert_with(|| NodePosterior::new(filters.evidence(), destinations));
         (filters, nodes)
     }
 }
 
 impl Engine for Stepwise {
-    fn advance(&mut self, destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
+    fn advance(&mut self, observed: &Observed<'_>) -> Result<()> {
         let (elapsed, measurement) = (observed.elapsed, observed.measurement()?);
         let is_alive = self.filters.now.plan.is_alive(elapsed);
+        let destinations = &self.destinations;
         self.filters.advance(is_alive, |bank| bank.advance(destinations, elapsed, &measurement))?;
         self.nodes = None;
         Ok(())
@@ -70,42 +76,43 @@ impl Engine for Stepwise {
         self.filters.expired()
     }
 
-    fn probabilities(&mut self, destinations: &Destinations, none: f64, posterior: &mut Posterior) {
-        let (filters, nodes) = self.nodes(destinations);
+    fn probabilities(&mut self, none: f64, posterior: &mut Posterior) {
         let mut log_likelihoods = Vec::new();
-        nodes.log_likelihoods(filters.evidence(), &mut log_likelihoods);
-        let log_evidence_of_none = filters.evidence().log_evidence_of_none(destinations.priors());
-        posterior.update(destinations, none, &log_likelihoods, log_evidence_of_none);
+        self.log_likelihoods(&mut log_likelihoods);
+        let priors = self.destinations.priors();
+        let log_evidence_of_none = self.filters.evidence().log_evidence_of_none(priors);
+        posterior.update(priors, none, &log_likelihoods, log_evidence_of_none);
     }
 
-    fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
-        let (filters, nodes) = self.nodes(destinations);
+    fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
+        let (filters, nodes) = self.nodes();
         nodes.log_likelihoods(filters.evidence(), into);
     }
 
-    fn arrival(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<ArrivalTime> {
-        let (filters, nodes) = self.nodes(destinations);
+    fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime> {
+        let (filters, nodes) = self.nodes();
         nodes.arrival(filters.evidence(), shares)
     }
 
-    fn state(&mut self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
-        let (filters, nodes) = self.nodes(destinations);
-        nodes.state(filters, destinations, shares, later)
+    fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
+        self.nodes();
+        self.nodes.as_ref()?.state(&self.filters, &self.destinations, shares, later)
     }
 
-    fn initial_state(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
-        let (filters, nodes) = self.nodes(destinations);
+    fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian> {
+        let (filters, nodes) = self.nodes();
         nodes.initial_state(filters.evidence(), shares)
     }
 
-    fn replan(&mut self, destinations: &Destinations, origin: Option<&[usize]>) {
+    fn replan(&mut self, destinations: &Arc<Destinations>, origin: Option<&[usize]>) {
         let plan = self.configuration.plan(destinations);
         let is_alive = plan.is_alive(self.filters.now.elapsed);
         self.filters.replan(is_alive, |bank| bank.replan(plan.clone(), origin));
+        self.destinations = Arc::clone(destinations);
         self.nodes = None;
     }
 
-    fn save(&self, _destinations: &Destinations) -> Value {
+    fn save(&self) -> Value {
         Value::map([("start", self.configuration.save()), ("filters", self.filters.save(FilterBank::save))])
     }
 

@@ -44,7 +44,7 @@ impl PointingEngine {
 }
 
 impl Engine for PointingEngine {
-    fn advance(&mut self, _destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
+    fn advance(&mut self, observed: &Observed<'_>) -> Result<()> {
         let variances = axis_variances(observed.noise, "noise")?;
         self.0.advance(observed.elapsed, observed.position, &variances);
         Ok(())
@@ -54,38 +54,38 @@ impl Engine for PointingEngine {
         self.0.course().observations
     }
 
-    fn probabilities(&mut self, _destinations: &Destinations, none: f64, posterior: &mut Posterior) {
+    fn probabilities(&mut self, none: f64, posterior: &mut Posterior) {
         posterior.none = self.0.posterior(none, &mut posterior.probabilities);
     }
 
-    fn log_likelihoods(&mut self, _destinations: &Destinations, into: &mut Vec<f64>) {
+    fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
         self.0.log_likelihoods(into);
     }
 
-    fn arrival(&mut self, _destinations: &Destinations, shares: Shares<'_>) -> Option<ArrivalTime> {
+    fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime> {
         Some(self.0.arrival(shares))
     }
 
-    fn remaining(&mut self, _destinations: &Destinations, shares: Shares<'_>, elapsed: f64) -> Option<Remaining> {
+    fn remaining(&mut self, shares: Shares<'_>, elapsed: f64) -> Option<Remaining> {
         let Some([mean, low, high]) = self.0.entry_time(shares) else {
             return Some(Remaining::until(&self.0.arrival(shares), elapsed));
         };
         Some(Remaining { mean, low, high })
     }
 
-    fn state(&mut self, _destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
+    fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
         self.0.state(shares, later)
     }
 
-    fn initial_state(&mut self, _destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
+    fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian> {
         self.0.initial_state(shares)
     }
 
-    fn replan(&mut self, destinations: &Destinations, _origin: Option<&[usize]>) {
+    fn replan(&mut self, destinations: &Arc<Destinations>, _origin: Option<&[usize]>) {
         self.0.replan(targets(destinations));
     }
 
-    fn save(&self, _destinations: &Destinations) -> Value {
+    fn save(&self) -> Value {
         self.0.course().save()
     }
 

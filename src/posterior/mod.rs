@@ -6,8 +6,6 @@ pub mod remaining;
 mod serial;
 pub(crate) mod shares;
 
-use crate::model::destination::Destinations;
-
 /// Destinations, each with its share; the shares need not sum to one.
 pub(crate) type Shares<'a> = &'a [(usize, f64)];
 
@@ -48,21 +46,14 @@ pub(crate) struct Posterior {
 
 impl Posterior {
     /// The priors, with `none` for none of them: before the first observation, and where every likelihood is zero.
-    pub fn set_to_prior(&mut self, destinations: &Destinations, none: f64) {
-        shares::prior(destinations.priors(), none, &mut self.probabilities);
+    pub fn set_to_prior(&mut self, priors: &[f64], none: f64) {
+        shares::prior(priors, none, &mut self.probabilities);
         self.none = none;
     }
 
     /// Liang (3): the priors, `none` being that of none of them, times the likelihoods. Where every likelihood is zero, the
     /// probabilities are the priors.
-    pub fn update(
-        &mut self,
-        destinations: &Destinations,
-        none: f64,
-        log_likelihoods: &[f64],
-        log_evidence_of_none: f64,
-    ) {
-        let priors = destinations.priors();
+    pub fn update(&mut self, priors: &[f64], none: f64, log_likelihoods: &[f64], log_evidence_of_none: f64) {
         let total: f64 = priors.iter().sum();
         let log_none = if none > 0.0 { log_evidence_of_none + none.ln() } else { f64::NEG_INFINITY };
         let joint = |(l, prior): (&f64, &f64)| l + ((1.0 - none) * prior / total).ln();
@@ -70,7 +61,7 @@ impl Posterior {
         self.probabilities.extend(log_likelihoods.iter().zip(priors).map(joint));
         let top = self.probabilities.iter().copied().fold(log_none, f64::max);
         if !top.is_finite() {
-            self.set_to_prior(destinations, none);
+            self.set_to_prior(priors, none);
             return;
         }
         self.probabilities.iter_mut().for_each(|p| *p = (*p - top).exp());

@@ -16,12 +16,6 @@ pub fn prior(priors: &[f64], none: f64, into: &mut Vec<f64>) {
     into.extend(priors.iter().map(|prior| (1.0 - none) * prior / total));
 }
 
-/// Whether the probabilities beside that of none are large enough for their ratios; else the log likelihoods have them.
-#[must_use]
-pub fn are_distinct(probabilities: &[f64]) -> bool {
-    probabilities.iter().sum::<f64>() > SMALLEST_SUM
-}
-
 /// The destinations with their shares of the probability beside none, or one of them alone. `log_likelihoods` is read only
 /// where the probabilities are too small.
 #[must_use]
@@ -35,7 +29,7 @@ pub fn beside_none(
         return vec![(one, 1.0)];
     }
     let positive = |weights: &[f64]| weights.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect();
-    if are_distinct(probabilities) {
+    if probabilities.iter().sum::<f64>() > SMALLEST_SUM {
         return positive(probabilities);
     }
     let mut weights = log_likelihoods();

@@ -11,6 +11,7 @@ use crate::posterior::{Posterior, shares};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// The movement that is going on.
 #[derive(Clone, Debug)]
@@ -30,7 +31,7 @@ impl Movement {
     /// As [`Scenario::begin`].
     pub fn begin(
         scenario: &Scenario,
-        destinations: &Destinations,
+        destinations: &Arc<Destinations>,
         time: f64,
         position: &[Option<f64>],
         noise: &DMatrix<f64>,
@@ -46,7 +47,6 @@ impl Movement {
     pub fn advance(
         &mut self,
         scenario: &Scenario,
-        destinations: &Destinations,
         time: f64,
         position: &[Option<f64>],
         noise: &DMatrix<f64>,
@@ -63,7 +63,7 @@ impl Movement {
                 format!("must be at most 1e12 seconds after the first observation's, {first}, got {}", number(time));
             return Err(Error::new(Code::OutOfRange, "time", message));
         }
-        self.engine.advance(destinations, &Observed { elapsed, position, noise, model: &scenario.observation })?;
+        self.engine.advance(&Observed { elapsed, position, noise, model: &scenario.observation })?;
         self.time = time;
         Ok(())
     }
@@ -87,61 +87,56 @@ impl Movement {
     }
 
     /// The posterior of the arrival time on the caller's clock; none where nothing can be reached.
-    pub fn arrival(
-        &mut self,
-        posterior: &Posterior,
-        destinations: &Destinations,
-        only: Option<usize>,
-    ) -> Option<ArrivalTime> {
-        let shares = self.shares(posterior, destinations, only);
-        let mut arrival = self.engine.arrival(destinations, &shares)?;
+    pub fn arrival(&mut self, posterior: &Posterior, priors: &[f64], only: Option<usize>) -> Option<ArrivalTime> {
+        let shares = self.shares(posterior, priors, only);
+        let mut arrival = self.engine.arrival(&shares)?;
         arrival.times.iter_mut().for_each(|time| *time += self.first_time);
         arrival.mean += self.first_time;
         Some(arrival)
     }
 
     /// The time to go; none before the second observation and after every node has passed.
-    pub fn remaining(&mut self, posterior: &Posterior, destinations: &Destinations) -> Option<Remaining> {
+    pub fn remaining(&mut self, posterior: &Posterior, priors: &[f64]) -> Option<Remaining> {
         if self.engine.observations() < 2 || self.engine.expired() {
             return None;
         }
-        let shares = self.shares(posterior, destinations, None);
-        self.engine.remaining(destinations, &shares, self.time - self.first_time)
+        let shares = self.shares(posterior, priors, None);
+        self.engine.remaining(&shares, self.time - self.first_time)
     }
 
     /// The state `later` seconds after the latest observation, given one destination or any of them.
     pub fn state(
         &mut self,
         posterior: &Posterior,
-        destinations: &Destinations,
+        priors: &[f64],
         later: f64,
         only: Option<usize>,
     ) -> Option<Gaussian> {
-        let shares = self.shares(posterior, destinations, only);
-        self.engine.state(destinations, &shares, later)
+        let shares = self.shares(posterior, priors, only);
+        self.engine.state(&shares, later)
     }
 
     /// The smoothed state at the first observation.
-    pub fn initial_state(&mut self, posterior: &Posterior, destinations: &Destinations) -> Option<Gaussian> {
-        let shares = self.shares(posterior, destinations, None);
-        self.engine.initial_state(destinations, &shares)
+    pub fn initial_state(&mut self, posterior: &Posterior, priors: &[f64]) -> Option<Gaussian> {
+        let shares = self.shares(posterior, priors, None);
+        self.engine.initial_state(&shares)
     }
 
     /// The destinations with their shares of the probability beside none, or one of them alone.
-    fn shares(&mut self, posterior: &Posterior, destinations: &Destinations, only: Option<usize>) -> Vec<(usize, f64)> {
-        shares::beside_none(&posterior.probabilities, destinations.priors(), only, || {
+    fn shares(&mut self, posterior: &Posterior, priors: &[f64], only: Option<usize>) -> Vec<(usize, f64)> {
+        shares::beside_none(&posterior.probabilities, priors, only, || {
             let mut log_likelihoods = Vec::new();
-            self.engine.log_likelihoods(destinations, &mut log_likelihoods);
+            self.engine.log_likelihoods(&mut log_likelihoods);
             log_likelihoods
         })
     }
 
     /// What a snapshot keeps.
-    pub fn save(&self, destinations: &Destinations) -> Value {
+    pub fn save(&self) -> Value {
         Value::map([
             ("firstTime", Value::exact(self.first_time)),
             ("time", Value::exact(self.time)),
-            ("engine", self.engine.save(destinations)),
+            ("engine", self.engine.save()),
         ])
     }
 
@@ -149,7 +144,7 @@ impl Movement {
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, scenario: &Scenario, destinations: &Destinations) -> Result<Self> {
+    pub fn load(node: &Node<'_>, scenario: &Scenario, destinations: &Arc<Destinations>) -> Result<Self> {
         let fields = node.fields(&["firstTime", "time", "engine"])?;
         Ok(Self {
             first_time: fields.required("firstTime")?.exact()?,

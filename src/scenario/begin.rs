@@ -17,7 +17,7 @@ impl Scenario {
     ///
     /// # Errors
     /// `wrong-length` where an axis is missing of which the initial density has no information, and as [`Engine::advance`].
-    pub(crate) fn begin(&self, destinations: &Destinations, first: &Observed<'_>) -> Result<Box<dyn Engine>> {
+    pub(crate) fn begin(&self, destinations: &Arc<Destinations>, first: &Observed<'_>) -> Result<Box<dyn Engine>> {
         let posterior = self.initial.posterior(&self.observation, &first.measurement()?)?;
         let start = posterior.mean.as_slice()[..destinations.dimensions()].to_vec();
         let prior = self.initial.counted();
@@ -32,7 +32,7 @@ impl Scenario {
             }
         };
         if prior.is_some() {
-            engine.advance(destinations, first)?;
+            engine.advance(first)?;
         }
         Ok(engine)
     }
@@ -41,7 +41,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of reading a value.
-    pub(crate) fn load(&self, destinations: &Destinations, node: &Node<'_>) -> Result<Box<dyn Engine>> {
+    pub(crate) fn load(&self, destinations: &Arc<Destinations>, node: &Node<'_>) -> Result<Box<dyn Engine>> {
         Ok(match self.choice(Vec::new()) {
             Choice::PseudoObservation(configuration) => {
                 Box::new(PseudoObservation::load(node, configuration, destinations)?)

@@ -53,42 +53,52 @@ use telescoped::Telescoped;
 #[derive(Clone, Debug)]
 pub(crate) struct PseudoObservation {
     configuration: Arc<Configuration>,
+    destinations: Arc<Destinations>,
     filters: Expiring<Telescoped>,
     dense: Option<Box<Stepwise>>,
 }
 
 impl PseudoObservation {
     /// Begins with `p(x_1 | y_1)`, or before the first observation, with `p(x_1)`, where its evidence counts.
-    pub fn begin(configuration: Configuration, destinations: &Destinations, first: &Gaussian) -> Self {
+    pub fn begin(configuration: Configuration, destinations: &Arc<Destinations>, first: &Gaussian) -> Self {
         let filters = Expiring::new(Telescoped::begin(&configuration, destinations, first));
-        Self { configuration: Arc::new(configuration), filters, dense: None }
+        Self { configuration: Arc::new(configuration), destinations: Arc::clone(destinations), filters, dense: None }
     }
 
     /// The engine that [`Engine::save`] wrote; the configuration's start is taken from there.
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, configuration: Configuration, destinations: &Destinations) -> Result<Self> {
+    pub fn load(node: &Node<'_>, configuration: Configuration, destinations: &Arc<Destinations>) -> Result<Self> {
         let fields = node.fields(&["start", "filters"])?;
         let configuration = configuration.load(&fields.required("start")?)?;
         let load = |node: &Node<'_>| Telescoped::load(node, &configuration, destinations);
         let filters = Expiring::load(&fields.required("filters")?, load)?;
-        Ok(Self { configuration: Arc::new(configuration), filters, dense: None })
+        Ok(Self {
+            configuration: Arc::new(configuration),
+            destinations: Arc::clone(destinations),
+            filters,
+            dense: None,
+        })
     }
 
-    fn dense(&mut self, destinations: &Destinations) -> Option<&mut Stepwise> {
+    fn dense(&mut self) -> Option<&mut Stepwise> {
         if self.dense.is_none() {
-            let filters = self.filters.map(|filters| filters.dense(&self.configuration, destinations))?;
-            self.dense = Some(Box::new(Stepwise::with(Arc::clone(&self.configuration), filters)));
+            let filters = self.filters.map(|filters| filters.dense(&self.configuration, &self.destinations))?;
+            self.dense = Some(Box::new(Stepwise::with(
+                Arc::clone(&self.configuration),
+                Arc::clone(&self.destinations),
+                filters,
+            )));
         }
         self.dense.as_deref_mut()
     }
 }
 
 impl Engine for PseudoObservation {
-    fn advance(&mut self, destinations: &Destinations, observed: &Observed<'_>) -> Result<()> {
+    fn advance(&mut self, observed: &Observed<'_>) -> Result<()> {
         let is_alive = self.filters.now.is_alive(observed.elapsed);
-        let configuration = &self.configuration;
+        let (configuration, destinations) = (&self.configuration, &self.destinations);
         self.filters.advance(is_alive, |filters| filters.advance(configuration, destinations, observed))?;
         self.dense = None;
         Ok(())
@@ -102,38 +112,40 @@ impl Engine for PseudoObservation {
         self.filters.expired()
     }
 
-    fn probabilities(&mut self, destinations: &Destinations, none: f64, posterior: &mut Posterior) {
+    fn probabilities(&mut self, none: f64, posterior: &mut Posterior) {
+        let destinations = &self.destinations;
         match self.filters.evidence_mut().probabilities(destinations, none, &mut posterior.probabilities) {
             Some(none) => posterior.none = none,
-            None => posterior.set_to_prior(destinations, none),
+            None => posterior.set_to_prior(destinations.priors(), none),
         }
     }
 
-    fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
-        self.filters.evidence_mut().log_likelihoods(destinations, into);
+    fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
+        self.filters.evidence_mut().log_likelihoods(&self.destinations, into);
     }
 
-    fn arrival(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<ArrivalTime> {
-        self.dense(destinations)?.arrival(destinations, shares)
+    fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime> {
+        self.dense()?.arrival(shares)
     }
 
-    fn state(&mut self, destinations: &Destinations, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
-        self.dense(destinations)?.state(destinations, shares, later)
+    fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
+        self.dense()?.state(shares, later)
     }
 
-    fn initial_state(&mut self, destinations: &Destinations, shares: Shares<'_>) -> Option<Gaussian> {
-        self.dense(destinations)?.initial_state(destinations, shares)
+    fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian> {
+        self.dense()?.initial_state(shares)
     }
 
-    fn replan(&mut self, destinations: &Destinations, _origin: Option<&[usize]>) {
+    fn replan(&mut self, destinations: &Arc<Destinations>, _origin: Option<&[usize]>) {
         let (configuration, plan) = (&self.configuration, self.configuration.plan(destinations));
         let is_alive = plan.is_alive(self.filters.now.elapsed());
         self.filters.replan(is_alive, |filters| filters.replan(configuration, destinations, &plan));
+        self.destinations = Arc::clone(destinations);
         self.dense = None;
     }
 
-    fn save(&self, destinations: &Destinations) -> Value {
-        let filters = self.filters.save(|filters| filters.save(&self.configuration, destinations));
+    fn save(&self) -> Value {
+        let filters = self.filters.save(|filters| filters.save(&self.configuration, &self.destinations));
         Value::map([("start", self.configuration.save()), ("filters", filters)])
     }
 

@@ -178,16 +178,16 @@ fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
         let diagonal = DMatrix::from_fn(d, d, |i, j| if i == j { variances[i] } else { 0.0 });
         elapsed += step;
         let observed = Observed { elapsed, position: &observed, noise: noise.as_ref().unwrap_or(&diagonal), model };
-        dense.advance(destinations, &observed).unwrap();
-        fast.advance(destinations, &observed).unwrap();
+        dense.advance(&observed).unwrap();
+        fast.advance(&observed).unwrap();
         assert_eq!(fast.expired(), dense.expired());
         if dense.expired() {
             break;
         }
-        dense.probabilities(destinations, scenario.none, &mut expected);
-        fast.probabilities(destinations, scenario.none, &mut found);
-        dense.log_likelihoods(destinations, &mut log_expected);
-        fast.log_likelihoods(destinations, &mut log_found);
+        dense.probabilities(scenario.none, &mut expected);
+        fast.probabilities(scenario.none, &mut found);
+        dense.log_likelihoods(&mut log_expected);
+        fast.log_likelihoods(&mut log_found);
         let both = found.probabilities.iter().zip(&expected.probabilities);
         for (p, expected) in both.chain([(&found.none, &expected.none)]) {
             worst.probability = worst.probability.max((p - expected).abs());
