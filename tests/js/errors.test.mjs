@@ -77,17 +77,77 @@ for (let i = 0; i < 30; i++) deep = [deep];
 const scenarios = [
   ["no scenario", undefined, "wrong-type", "", "must be an object, got nothing"],
   ["an undefined key is absent", small({ method: undefined, none: null }), null],
-  ["a hole in a centre", small({ destinations: [{ ...left, center: [1, ,] }] }), "wrong-type", "destinations[0].center[1]", "must be a number, got nothing"],
-  ["a bigint", small({ none: 0n }), "wrong-type", "none", "must be plain data (numbers, strings, lists, objects), got 0n, a bigint"],
-  ["a symbol", small({ destinations: [{ ...left, id: Symbol("x") }] }), "wrong-type", "destinations[0].id", "must be plain data (numbers, strings, lists, objects), got a symbol"],
-  ["a function", small({ observation: () => 1 }), "wrong-type", "observation", "must be plain data (numbers, strings, lists, objects), got a function"],
-  ["a scenario that is a function", () => small(), "wrong-type", "", "must be plain data (numbers, strings, lists, objects), got a function"],
-  ["big integers", small({ destinations: [{ ...left, center: BigInt64Array.of(1n, 2n) }] }), "wrong-type", "destinations[0].center[0]", "must be plain data (numbers, strings, lists, objects), got 1n, a bigint"],
+  [
+    "a hole in a centre",
+    small({ destinations: [{ ...left, center: [1, ,] }] }),
+    "wrong-type",
+    "destinations[0].center[1]",
+    "must be a number, got nothing",
+  ],
+  [
+    "a bigint",
+    small({ none: 0n }),
+    "wrong-type",
+    "none",
+    "must be plain data (numbers, strings, lists, objects), got 0n, a bigint",
+  ],
+  [
+    "a symbol",
+    small({ destinations: [{ ...left, id: Symbol("x") }] }),
+    "wrong-type",
+    "destinations[0].id",
+    "must be plain data (numbers, strings, lists, objects), got a symbol",
+  ],
+  [
+    "a function",
+    small({ observation: () => 1 }),
+    "wrong-type",
+    "observation",
+    "must be plain data (numbers, strings, lists, objects), got a function",
+  ],
+  [
+    "a scenario that is a function",
+    () => small(),
+    "wrong-type",
+    "",
+    "must be plain data (numbers, strings, lists, objects), got a function",
+  ],
+  [
+    "big integers",
+    small({ destinations: [{ ...left, center: BigInt64Array.of(1n, 2n) }] }),
+    "wrong-type",
+    "destinations[0].center[0]",
+    "must be plain data (numbers, strings, lists, objects), got 1n, a bigint",
+  ],
   ["an object that refers to itself", cyclic, "wrong-type", "motion.itself", "must be plain data, refers to itself"],
-  ["a list that is too deep", small({ destinations: deep }), "wrong-type", `destinations${"[0]".repeat(23)}`, "must be plain data, is nested more than 24 deep"],
-  ["a huge sparse list", small({ destinations: new Array(2 ** 32 - 1) }), "too-large", "destinations", "must have no more than 1000000 items, has 4294967295"],
-  ["more values than memory", small({ destinations: new Array(1000).fill(new Array(1e6).fill(0)) }), "too-large", "destinations[16][777185]", "must have no more than 16777216 values in all"],
-  ["a text longer than memory", small({ method: "x".repeat(2 ** 27) }), "too-large", "method", "must have no more than 67108864 characters in all"],
+  [
+    "a list that is too deep",
+    small({ destinations: deep }),
+    "wrong-type",
+    `destinations${"[0]".repeat(23)}`,
+    "must be plain data, is nested more than 24 deep",
+  ],
+  [
+    "a huge sparse list",
+    small({ destinations: new Array(2 ** 32 - 1) }),
+    "too-large",
+    "destinations",
+    "must have no more than 1000000 items, has 4294967295",
+  ],
+  [
+    "more values than memory",
+    small({ destinations: new Array(1000).fill(new Array(1e6).fill(0)) }),
+    "too-large",
+    "destinations[16][777185]",
+    "must have no more than 16777216 values in all",
+  ],
+  [
+    "a text longer than memory",
+    small({ method: "x".repeat(2 ** 27) }),
+    "too-large",
+    "method",
+    "must have no more than 67108864 characters in all",
+  ],
 ];
 
 for (const [what, scenario, code, path, message] of scenarios) {
@@ -99,16 +159,52 @@ for (const [what, scenario, code, path, message] of scenarios) {
 
 /** The same in mid-movement: `[what, call, code, path, message]` */
 const uses = [
-  ["a time that is a bigint", (p) => p.observe(3n, [1, 2]), "wrong-type", "time", "must be plain data (numbers, strings, lists, objects), got 3n, a bigint"],
+  [
+    "a time that is a bigint",
+    (p) => p.observe(3n, [1, 2]),
+    "wrong-type",
+    "time",
+    "must be plain data (numbers, strings, lists, objects), got 3n, a bigint",
+  ],
   ["a position that is null", (p) => p.observe(3, null), "missing-key", "position", 'missing key "position"'],
   ["ten coordinates", (p) => p.observe(3, new Float32Array(10)), "wrong-length", "position", "must have 2 numbers, has 10"],
-  ["a huge sparse position", (p) => p.observe(3, new Array(2 ** 32 - 1)), "too-large", "position", "must have no more than 1000000 items, has 4294967295"],
-  ["a position that says it is huge", (p) => p.observe(3, { length: 2 ** 53 }), "wrong-type", "position", "must be a list, got an object"],
-  ["a coordinate that is a bigint", (p) => p.observe(3, [1n, 2]), "wrong-type", "position[0]", "must be plain data (numbers, strings, lists, objects), got 1n, a bigint"],
+  [
+    "a huge sparse position",
+    (p) => p.observe(3, new Array(2 ** 32 - 1)),
+    "too-large",
+    "position",
+    "must have no more than 1000000 items, has 4294967295",
+  ],
+  [
+    "a position that says it is huge",
+    (p) => p.observe(3, { length: 2 ** 53 }),
+    "wrong-type",
+    "position",
+    "must be a list, got an object",
+  ],
+  [
+    "a coordinate that is a bigint",
+    (p) => p.observe(3, [1n, 2]),
+    "wrong-type",
+    "position[0]",
+    "must be plain data (numbers, strings, lists, objects), got 1n, a bigint",
+  ],
   ["an array of another kind to write to", (p) => p.probabilities([0, 0, 0]), "wrong-type", "into", "must be a Float64Array"],
-  ["an array of another kind of number", (p) => p.logLikelihoods(new Float32Array(3)), "wrong-type", "into", "must be a Float64Array"],
+  [
+    "an array of another kind of number",
+    (p) => p.logLikelihoods(new Float32Array(3)),
+    "wrong-type",
+    "into",
+    "must be a Float64Array",
+  ],
   ["nothing to write to", (p) => p.probabilities(null), "wrong-type", "into", "must be a Float64Array"],
-  ["an array that is too short", (p) => p.probabilities(new Float64Array(2)), "wrong-length", "into", "must have 3 numbers, has 2"],
+  [
+    "an array that is too short",
+    (p) => p.probabilities(new Float64Array(2)),
+    "wrong-length",
+    "into",
+    "must have 3 numbers, has 2",
+  ],
 ];
 
 for (const [what, use, code, path, message] of uses) {
@@ -146,13 +242,28 @@ test("what a user's own getter or proxy throws comes through, and everything goe
   const proxy = new Proxy({}, { ownKeys: thrower, get: thrower });
   for (const bad of [getter, proxy, small({ destinations: proxy }), small({ destinations: new Proxy([], { get: thrower }) })]) {
     for (let i = 0; i < 1000; i++) {
-      assert.throws(() => new Predictor(bad), (error) => error === own);
+      assert.throws(
+        () => new Predictor(bad),
+        (error) => error === own,
+      );
     }
-    assert.throws(() => predictor.setDestinations(bad), (error) => error === own);
-    assert.throws(() => predictor.observe(1, [1, 2], { noise: bad }), (error) => error === own);
-    assert.throws(() => Predictor.restore(bad), (error) => error === own);
+    assert.throws(
+      () => predictor.setDestinations(bad),
+      (error) => error === own,
+    );
+    assert.throws(
+      () => predictor.observe(1, [1, 2], { noise: bad }),
+      (error) => error === own,
+    );
+    assert.throws(
+      () => Predictor.restore(bad),
+      (error) => error === own,
+    );
   }
-  assert.throws(() => predictor.observe(1, proxy), (error) => error === own);
+  assert.throws(
+    () => predictor.observe(1, proxy),
+    (error) => error === own,
+  );
   assert.throws(() => new Predictor(new Proxy({}, { ownKeys: () => ["a", "a"] })), TypeError);
   predictor.observe(1, [420, 300]);
 });

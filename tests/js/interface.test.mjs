@@ -39,8 +39,21 @@ const objects = [
   motion("integratedOrnsteinUhlenbeck", { noise: 1, damping: 1 }),
   motion("meanReverting", { noise: 1, rate: 1 }),
   motion("equilibriumRevertingVelocity", { noise: 1, stiffness: 1, damping: 1 }),
-  motion("custom", { drift: [[0, 0], [0, 0]], diffusion: [[1, 0], [0, 1]] }),
-  ["Extract<MotionNoise, { candidates: unknown }>", { ...scenario, change: { "/motion/noise": { candidates: [1] } } }, "/motion/noise"],
+  motion("custom", {
+    drift: [
+      [0, 0],
+      [0, 0],
+    ],
+    diffusion: [
+      [1, 0],
+      [0, 1],
+    ],
+  }),
+  [
+    "Extract<MotionNoise, { candidates: unknown }>",
+    { ...scenario, change: { "/motion/noise": { candidates: [1] } } },
+    "/motion/noise",
+  ],
   ["Observation", scenario, "/observation"],
   ["Initial", scenario, "/initial"],
   arrival('"uniform" | "horizon"', { from: 1, to: 2 }),
@@ -85,7 +98,8 @@ function literals(types) {
   const name = fileURLToPath(new URL("declared.ts", import.meta.url));
   const host = ts.createCompilerHost(options);
   const { getSourceFile, fileExists } = host;
-  host.getSourceFile = (file, ...others) => (file === name ? ts.createSourceFile(file, text, target) : getSourceFile(file, ...others));
+  host.getSourceFile = (file, ...others) =>
+    file === name ? ts.createSourceFile(file, text, target) : getSourceFile(file, ...others);
   host.fileExists = (file) => file === name || fileExists(file);
   const program = ts.createProgram([name], options, host);
   const file = program.getSourceFile(name);
@@ -111,7 +125,10 @@ function legal({ build, from, change = {} }, wrong, pattern) {
     message = error.message;
   }
   const [, list] = pattern.exec(message) ?? assert.fail(`no list of words in ${JSON.stringify(message)}`);
-  return list.split(", ").map((word) => JSON.parse(word)).sort();
+  return list
+    .split(", ")
+    .map((word) => JSON.parse(word))
+    .sort();
 }
 
 objects.forEach(([type, where, pointer], i) => {

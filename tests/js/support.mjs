@@ -70,7 +70,11 @@ export function close(found, expected, tolerance, what) {
 
 /** Asserts the same numbers to the bit. */
 export function same(found, expected, what) {
-  assert.deepEqual(new BigUint64Array(Float64Array.from(found).buffer), new BigUint64Array(Float64Array.from(expected).buffer), what);
+  assert.deepEqual(
+    new BigUint64Array(Float64Array.from(found).buffer),
+    new BigUint64Array(Float64Array.from(expected).buffer),
+    what,
+  );
 }
 
 /** Asserts that `run` throws our error: its code, and its message, which begins with its path. */
