@@ -161,6 +161,7 @@ export async function drag(page, samples, beforeLift = async () => {}) {
   await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
 }
 
+/** Until the moment of a sample: how long a hand takes is what is tested, and nothing else is waited for. */
 async function until(time) {
   const wait = time * 1000 - Date.now();
   if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));

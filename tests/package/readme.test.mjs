@@ -117,7 +117,7 @@ async function onPages(folder, entry) {
       await tab.goto(server.url, { waitUntil: "networkidle" });
     };
 
-    /** A minimum-jerk movement, as much of it as `to` says; gives what was best and which icons were lit after each sample. */
+    /** A minimum-jerk movement at the pace of a hand, as much of it as `to` says; gives what was best and which icons were lit after each sample. */
     const move = async (from, [x, y], to = 1) => {
       const shown = [];
       for (let k = 0; k <= 40 * to; k++) {
@@ -132,6 +132,7 @@ async function onPages(folder, entry) {
     const next = () => tab.evaluate(() => [...document.querySelectorAll(".next")].map(({ id }) => id));
     const times = (shown, id) => shown.filter(({ lit }) => lit.includes(id)).length;
     const everLit = (shown) => [...new Set(shown.flatMap(({ lit }) => lit))];
+    /** As long as a hand rests before another movement: a time that is tested, as that between the samples of a movement. */
     const rest = () => tab.waitForTimeout(400);
     const finish = async () => {
       assert.deepEqual(errors, []);

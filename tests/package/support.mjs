@@ -95,10 +95,8 @@ export async function inBrowser(browser, folder, { headers, expected = null } = 
   tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   try {
     await tab.goto(server.url);
-    const outcome = await tab.evaluate(async () => {
-      for (let i = 0; window.outcome === undefined && i < 500; i++) await new Promise((next) => setTimeout(next, 20));
-      return window.outcome;
-    });
+    await tab.waitForFunction(() => window.outcome !== undefined);
+    const outcome = await tab.evaluate(() => window.outcome);
     assert.deepEqual(errors.filter((text) => expected === null || !expected.test(text)), []);
     return outcome;
   } finally {
