@@ -51,10 +51,10 @@ impl Stepwise {
         Ok(Self::with(Arc::new(configuration), Arc::clone(destinations), filters))
     }
 
-    fn nodes(&mut self) -> (&Expiring<FilterBank>, &NodePosterior) {
+    fn nodes(&mut self) -> (&NodePosterior, &Expiring<FilterBank>, &Destinations) {
         let Self { destinations, filters, nodes, .. } = self;
         let nodes = nodes.get_or_insert_with(|| NodePosterior::new(filters.evidence(), destinations));
-        (filters, nodes)
+        (nodes, filters, destinations)
     }
 }
 
@@ -85,22 +85,22 @@ impl Engine for Stepwise {
     }
 
     fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
-        let (filters, nodes) = self.nodes();
+        let (nodes, filters, _) = self.nodes();
         nodes.log_likelihoods(filters.evidence(), into);
     }
 
     fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime> {
-        let (filters, nodes) = self.nodes();
+        let (nodes, filters, _) = self.nodes();
         nodes.arrival(filters.evidence(), shares)
     }
 
     fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
-        self.nodes();
-        self.nodes.as_ref()?.state(&self.filters, &self.destinations, shares, later)
+        let (nodes, filters, destinations) = self.nodes();
+        nodes.state(filters, destinations, shares, later)
     }
 
     fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian> {
-        let (filters, nodes) = self.nodes();
+        let (nodes, filters, _) = self.nodes();
         nodes.initial_state(filters.evidence(), shares)
     }
 

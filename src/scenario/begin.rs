@@ -56,6 +56,7 @@ impl Scenario {
             super::Engine::Papers { method, arrival, quadrature } => (*method, arrival.clone(), quadrature.clone()),
             super::Engine::Pointing(parameters) => return Choice::Pointing(Arc::clone(parameters), start),
         };
+        // one filter for all destinations, and nothing accumulates
         let telescopes = method == Method::PseudoObservation && !self.motion.depends_on_destination();
         let configuration = Configuration {
             motion: self.motion.clone(),
