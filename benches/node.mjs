@@ -34,7 +34,14 @@ function measureKalmanFilter(options) {
     }
   };
   const ours = step(whither, { count });
-  const time = interleave([{ name: "theirs", run }, { name: "ours", run: ours.run }], clock, options);
+  const time = interleave(
+    [
+      { name: "theirs", run },
+      { name: "ours", run: ours.run },
+    ],
+    clock,
+    options,
+  );
   ours.predictor.free();
   return { microseconds: 1000 * time.theirs, ours: 1000 * time.ours };
 }

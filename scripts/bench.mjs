@@ -72,7 +72,11 @@ async function natively(list, { pointerScenario }, quick) {
   const call = (way, round) => nanoseconds(`exp ${way} ${round}`) / file.exponents.length;
   const rounds = ["first", "second", "third"];
   const units = rounds.map((round) => ({ plain: call("plain", round), unrolled: call("unrolled", round) }));
-  const exp = checkUnit("natively", units, rounds.map((round) => call("check", round)));
+  const exp = checkUnit(
+    "natively",
+    units,
+    rounds.map((round) => call("check", round)),
+  );
   const result = {};
   for (const { name, pairs } of list) {
     const time = nanoseconds(name);

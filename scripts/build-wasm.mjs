@@ -43,17 +43,27 @@ export async function buildWasm({ dev = false } = {}) {
     for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : "wasm");
   });
   const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs"];
-  const outputs = modules.flatMap(({ name, bytes }) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${bytes}.js`, `${bytes}.d.ts`]);
-  await incremental("wasm", { inputs, outputs: outputs.map((name) => `${generated}/${name}`), variant, doing: null }, async () => {
-    rmSync(join(root, generated), { recursive: true, force: true });
-    await compileTools();
-    for (const [i, { name, bytes }] of modules.entries()) {
-      await bindgen(compiled[i], name);
-      const file = join(root, `${generated}/${name}_bg.wasm`);
-      if (dev) embed(name, bytes, gzipSync(readFileSync(file)));
-      else await during(`making ${name}.wasm small`, async () => embed(name, bytes, await small(name)));
-    }
-  });
+  const outputs = modules.flatMap(({ name, bytes }) => [
+    `${name}.js`,
+    `${name}.d.ts`,
+    `${name}_bg.wasm`,
+    `${bytes}.js`,
+    `${bytes}.d.ts`,
+  ]);
+  await incremental(
+    "wasm",
+    { inputs, outputs: outputs.map((name) => `${generated}/${name}`), variant, doing: null },
+    async () => {
+      rmSync(join(root, generated), { recursive: true, force: true });
+      await compileTools();
+      for (const [i, { name, bytes }] of modules.entries()) {
+        await bindgen(compiled[i], name);
+        const file = join(root, `${generated}/${name}_bg.wasm`);
+        if (dev) embed(name, bytes, gzipSync(readFileSync(file)));
+        else await during(`making ${name}.wasm small`, async () => embed(name, bytes, await small(name)));
+      }
+    },
+  );
 }
 
 /** These flags replace those of .cargo/config.toml. */

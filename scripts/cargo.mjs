@@ -34,7 +34,9 @@ export async function compile(what, args, { env = {}, ...options } = {}) {
       if (!WORK.test(line)) others.push(line);
     }
   };
-  const { code } = await capture("cargo", args, { env: { ...bar, ...env }, watch: read, ...options }).finally(() => running?.end());
+  const { code } = await capture("cargo", args, { env: { ...bar, ...env }, watch: read, ...options }).finally(() =>
+    running?.end(),
+  );
   read("\n");
   const shown = others.join("\n").trim();
   if (shown !== "") console.error(shown);

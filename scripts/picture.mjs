@@ -36,5 +36,6 @@ await writeFile(file, picture);
 await browser.close();
 await host.close();
 
-if (sins.length > 0 || picture.length > LARGEST) throw new Error([`docs/demo.webp has ${picture.length} bytes`, ...sins].join("\n"));
+if (sins.length > 0 || picture.length > LARGEST)
+  throw new Error([`docs/demo.webp has ${picture.length} bytes`, ...sins].join("\n"));
 console.log(`docs/demo.webp: ${picture.length} bytes`);

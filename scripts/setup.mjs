@@ -22,7 +22,8 @@ async function ensureRust() {
   if (viaRustup && (await answer("rustc", ["--version"])) === null) {
     // the pinned version may be there already under the name "stable": nothing to download
     const [, pinned] = readFileSync(join(root, "rust-toolchain.toml"), "utf8").match(/channel = "(.*)"/);
-    if ((await answer("rustc", ["+stable", "--version"]))?.startsWith(`rustc ${pinned} `)) environment.RUSTUP_TOOLCHAIN = "stable";
+    if ((await answer("rustc", ["+stable", "--version"]))?.startsWith(`rustc ${pinned} `))
+      environment.RUSTUP_TOOLCHAIN = "stable";
     else await run("rustup", ["toolchain", "install"]);
   }
   if ((await answer("cargo", ["--version"])) === null) {

@@ -10,7 +10,11 @@ import { table } from "./table.mjs";
 const budgets = { pointing: 36_000, whither: 175_000 };
 
 const parts = [
-  { name: "`whither/pointing`, as it is packed", files: ["pointing.js", "error.js", "pointing-bytes.js"], budget: budgets.pointing },
+  {
+    name: "`whither/pointing`, as it is packed",
+    files: ["pointing.js", "error.js", "pointing-bytes.js"],
+    budget: budgets.pointing,
+  },
   { name: "of it the JavaScript", files: ["pointing.js", "error.js"] },
   { name: "its file of WebAssembly", files: ["pointing.wasm"] },
   { name: "`whither`, as it is packed", files: ["index.js", "shared.js", "error.js", "bytes.js"], budget: budgets.whither },

@@ -15,5 +15,7 @@ await main(import.meta.url, async () => {
   const which = ["--profile", "tools", "--package", name];
   await compile(`compiling ${name}`, ["build", ...which]);
   const program = spawn("cargo", ["run", "--quiet", ...which, "--", ...args], { cwd: root, env: environment, stdio: "inherit" });
-  process.exitCode = await new Promise((resolve, reject) => program.on("error", reject).on("close", (code) => resolve(code ?? 1)));
+  process.exitCode = await new Promise((resolve, reject) =>
+    program.on("error", reject).on("close", (code) => resolve(code ?? 1)),
+  );
 });

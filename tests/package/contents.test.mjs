@@ -72,7 +72,10 @@ test("the package", async (t) => {
 
   await t.test("has no dependencies and runs nothing when it is installed", () => {
     assert.deepEqual(Object.keys(metadata.dependencies ?? {}), []);
-    assert.deepEqual(readdirSync(join(folder, "node_modules")).filter((name) => !name.startsWith(".")), ["whither"]);
+    assert.deepEqual(
+      readdirSync(join(folder, "node_modules")).filter((name) => !name.startsWith(".")),
+      ["whither"],
+    );
     for (const script of ["preinstall", "install", "postinstall"]) assert.equal(metadata.scripts[script], undefined);
   });
 

@@ -21,7 +21,11 @@ async function cargo(...args) {
 /** The targets of a Markdown file's links and pictures that are no addresses, without their anchors. */
 function links(text) {
   const prose = text.replace(/^```.*?^```$/gms, "").replace(/`[^`\n]*`/g, "");
-  const targets = [...prose.matchAll(/\]\(\s*<?([^)\s>]+)>?[^)]*\)/g), ...prose.matchAll(/(?:src|href)="([^"]+)"/g), ...prose.matchAll(/^\[[^\]]+\]:\s*(\S+)/gm)];
+  const targets = [
+    ...prose.matchAll(/\]\(\s*<?([^)\s>]+)>?[^)]*\)/g),
+    ...prose.matchAll(/(?:src|href)="([^"]+)"/g),
+    ...prose.matchAll(/^\[[^\]]+\]:\s*(\S+)/gm),
+  ];
   return targets.map(([, target]) => target.split("#")[0]).filter((target) => target !== "" && !/^[a-z]+:/.test(target));
 }
 
@@ -38,7 +42,8 @@ function allFound(files, where) {
 }
 
 test("links are found as Markdown has them", () => {
-  const text = "![a](p.webp) [b](docs/x.md#part 'title') [c](#here) [d](https://e.org) `[e](no)`\n```\n[f](no)\n```\n<img src=\"i.png\">\n[g]: h.md\n";
+  const text =
+    "![a](p.webp) [b](docs/x.md#part 'title') [c](#here) [d](https://e.org) `[e](no)`\n```\n[f](no)\n```\n<img src=\"i.png\">\n[g]: h.md\n";
   assert.deepEqual(links(text), ["p.webp", "docs/x.md", "i.png", "h.md"]);
   assert.ok(links(read("README.md")).includes("docs/demo.webp"), "README has its picture");
 });
@@ -54,7 +59,10 @@ test("what README and the other pages link to is in what is published", async (t
 
 test("every file has the same version", () => {
   const found = versions();
-  assert.deepEqual(Object.keys(found).filter((file) => found[file] !== crate.version), []);
+  assert.deepEqual(
+    Object.keys(found).filter((file) => found[file] !== crate.version),
+    [],
+  );
 });
 
 test("npm would publish it without a warning", async () => {
@@ -81,10 +89,18 @@ test("docs.rs shows every feature that is for Rust", () => {
   const forRust = Object.keys(crate.features).filter((name) => !name.startsWith("wasm"));
   const also = (name) => [name, ...crate.features[name].filter((item) => item in crate.features).flatMap(also)];
   const all = new Set(shown.flatMap(also));
-  assert.deepEqual(forRust.filter((name) => !all.has(name)), []);
+  assert.deepEqual(
+    forRust.filter((name) => !all.has(name)),
+    [],
+  );
 });
 
 test("no requirement of a crate is exact: the lock file pins, and others may have another patch", () => {
-  const exact = packages.flatMap(({ dependencies }) => dependencies.filter(({ req, path }) => !req.startsWith("^") && path === undefined));
-  assert.deepEqual(exact.map(({ name, req }) => `${name} ${req}`), []);
+  const exact = packages.flatMap(({ dependencies }) =>
+    dependencies.filter(({ req, path }) => !req.startsWith("^") && path === undefined),
+  );
+  assert.deepEqual(
+    exact.map(({ name, req }) => `${name} ${req}`),
+    [],
+  );
 });

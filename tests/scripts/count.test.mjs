@@ -20,7 +20,10 @@ function folder(t, files) {
 async function node(t, text) {
   const cwd = folder(t, { "some.test.mjs": `import { after, before, describe, it, test } from "node:test";\n${text}` });
   // what runs here is itself run by a test runner, which would take the other's tests for its own
-  const { code, output } = await capture("node", nodeArguments(["some.test.mjs"]), { cwd, env: { NODE_TEST_CONTEXT: undefined } });
+  const { code, output } = await capture("node", nodeArguments(["some.test.mjs"]), {
+    cwd,
+    env: { NODE_TEST_CONTEXT: undefined },
+  });
   return { code, counts: inWords(countNode(output)), output };
 }
 

@@ -15,19 +15,29 @@ const slow = ({ name, run }) => ({ name, run: (times) => [0, 1, 2].forEach(() =>
 
 test("a unit that is slow on purpose is refused, and a check that is", () => {
   const both = measure([...ways(numbers).map(slow), check(numbers)]);
-  assert.throws(() => checkUnit("in this test", [both], [both.check]), /^Error: the unit is off, in this test: a call of exp takes .* ns/);
+  assert.throws(
+    () => checkUnit("in this test", [both], [both.check]),
+    /^Error: the unit is off, in this test: a call of exp takes .* ns/,
+  );
   const other = measure([...ways(numbers), slow(check(numbers))]);
   assert.throws(() => checkUnit("in this test", [other], [other.check]), /^Error: the unit is off, in this test: .* times apart/);
 });
 
 test("the fault of once, 14 ns beside 7.5, is refused, and so is what is no number", () => {
   const captured = { plain: 14, unrolled: 14 };
-  assert.throws(() => checkUnit("in Node", [captured], [7.5]), /14\.00 ns where it is the unit, and 7\.50 ns .*, 1\.87 times apart/);
+  assert.throws(
+    () => checkUnit("in Node", [captured], [7.5]),
+    /14\.00 ns where it is the unit, and 7\.50 ns .*, 1\.87 times apart/,
+  );
   assert.throws(() => checkUnit("in Node", [{ plain: NaN, unrolled: 7.5 }], [7.5]), /the unit is off/);
 });
 
 test("one measurement of many that was disturbed does not count, and the faster loop is the unit", () => {
-  const measured = [{ plain: 7.6, unrolled: 7.2 }, { plain: 30, unrolled: 30 }, { plain: 7.7, unrolled: 7.1 }];
+  const measured = [
+    { plain: 7.6, unrolled: 7.2 },
+    { plain: 30, unrolled: 30 },
+    { plain: 7.7, unrolled: 7.1 },
+  ];
   assert.deepEqual(checkUnit("in Node", measured, [7, 8]), { plain: 7.7, unrolled: 7.2, unit: 7.2, check: 7.5 });
   assert.equal(unit({ plain: 7.7, unrolled: 7.2 }), 7.2);
 });
