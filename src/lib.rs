@@ -130,7 +130,12 @@ pub mod pointer;
 pub mod snapshot;
 pub mod study;
 
-pub use conditionally_markov::ConditionallyMarkovSequence;
+#[doc(hidden)]
+pub mod internals;
+
+pub use conditionally_markov::{
+    Boundary, ConditionallyMarkovSequence, GivenSequence, SequenceParameters, StepModel, TimeStep,
+};
 pub use error::{Code, Error, Result};
 pub use math::gaussian::Gaussian;
 pub use math::quadrature::Quadrature;

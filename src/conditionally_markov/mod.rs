@@ -13,9 +13,9 @@
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Measurement;
-use crate::value::{Node, Value};
 use std::sync::Arc;
 
+mod description;
 mod filter;
 mod model;
 mod properties;
@@ -23,27 +23,33 @@ mod sampling;
 #[cfg(test)]
 mod tests;
 
+pub use description::{Boundary, GivenSequence, SequenceParameters, TimeStep};
 use filter::Filter;
 use model::Model;
 pub use model::{MAX_STEPS, StepModel};
 
-/// How far both sides of Theorem 3.2 may differ, relative to the larger one, where nothing else is said.
+/// How far both sides of Theorem 3.2 may differ, relative to the larger one, unless given.
 pub const DEFAULT_TOLERANCE: f64 = 1e-6;
 
 /// A Gaussian sequence `x_0 .. x_N` that moves like a Markov sequence towards its destination `x_N`, and what is known of one
 /// realisation of it after some measurements.
 ///
 /// ```
-/// use whither::{ConditionallyMarkovSequence, Value};
+/// use whither::{ConditionallyMarkovSequence, Motion, Observation, SequenceParameters};
 /// // from about 0 to about 10 in 20 steps of a second, on one axis
-/// let value: Value = serde_json::from_str(r#"{
-///     "motion": { "type": "constantVelocity", "dimensions": 1, "noise": 0.1 },
-///     "timeStep": 1, "steps": 20, "pins": [0, 20],
-///     "pinnedMean": [0, 0.5, 10, 0.5],
-///     "pinnedCovariance": [[1, 0, 0, 0], [0, 0.1, 0, 0], [0, 0, 4, 0], [0, 0, 0, 0.1]],
-///     "observation": { "noise": 0.2 }
-/// }"#)?;
-/// let mut sequence = ConditionallyMarkovSequence::new(&value)?;
+/// let variances = [1.0, 0.1, 4.0, 0.1];
+/// let mut sequence = ConditionallyMarkovSequence::new(&SequenceParameters {
+///     motion: Motion::constant_velocity(1, 0.1),
+///     time_step: 1.0.into(),
+///     steps: 20,
+///     pins: None,
+///     pinned_mean: vec![0.0, 0.5, 10.0, 0.5],
+///     pinned_covariance: std::array::from_fn::<_, 4, _>(|i| {
+///         std::array::from_fn::<_, 4, _>(|j| if i == j { variances[i] } else { 0.0 })
+///     })
+///     .into(),
+///     observation: Observation::deviation(0.2),
+/// })?;
 /// let before = sequence.destination();
 /// sequence.measure(3, &[1.8])?;
 /// sequence.measure(4, &[2.5])?;
@@ -52,7 +58,7 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-6;
 /// assert!(after.covariance[(0, 0)] < before.covariance[(0, 0)]);
 /// let half_way = sequence.state(10)?; // a prediction
 /// assert!(half_way.mean[0] > 4.0 && half_way.mean[0] < 7.0);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), whither::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct ConditionallyMarkovSequence {
@@ -62,34 +68,21 @@ pub struct ConditionallyMarkovSequence {
 }
 
 impl ConditionallyMarkovSequence {
-    /// A sequence induced by a Markov model, (10)-(11) with (7)-(9), from
-    /// `{ motion, timeStep, steps, pins?, pinnedMean, pinnedCovariance, observation }`.
-    ///
-    /// `motion` and `observation` are a scenario's; `timeStep` is the length of each step in seconds, one number or a list of
-    /// `steps` numbers; `pins` are the steps of the pinned states, `[0, steps]` unless there are waypoints; `pinnedMean` and
-    /// `pinnedCovariance` are the joint density of the pinned states, stacked. A motion model that knows its destination's
-    /// centre takes the destination's mean position for it.
+    /// A sequence induced by a Markov model, (10)-(11) with (7)-(9).
     ///
     /// # Errors
-    /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`,
-    /// `too-large` (more than [`MAX_STEPS`] steps), each with the path of the field.
-    pub fn new(value: &Value) -> Result<Self> {
-        Ok(Self::of(Model::induced(&Node::root(value, ""))?))
+    /// `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`, `too-large`, `unknown-key` (`motion.speedNoise`),
+    /// each with the path of the field.
+    pub fn new(parameters: &SequenceParameters) -> Result<Self> {
+        Ok(Self::of(Model::induced(parameters)?))
     }
 
-    /// A sequence given matrix by matrix, (2)-(3), from
-    /// `{ previous, destination, offset?, covariance, boundary, observation, dimensions? }`.
-    ///
-    /// `previous`, `destination` and `covariance` have `G_{k,k-1}`, `G_{k,N}` and `G_k` for each step `k = 1 .. N - 1`, `offset` a
-    /// vector for each that is added. `boundary` is `{ originMean?, destinationMean?, gain?, originCovariance,
-    /// destinationCovariance }`: `x_N ~ N(destinationMean, destinationCovariance)` and
-    /// `x_0 = originMean + gain (x_N - destinationMean) + e_0`, `e_0 ~ N(0, originCovariance)`; what is left out is zero. The first
-    /// `dimensions` components of a state are its position: half of them unless given (all, where their number is odd).
+    /// A sequence given matrix by matrix, (2)-(3).
     ///
     /// # Errors
-    /// As [`ConditionallyMarkovSequence::new`].
-    pub fn from_parameters(value: &Value) -> Result<Self> {
-        Ok(Self::of(Model::given(&Node::root(value, ""))?))
+    /// `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`, `too-large`, each with the path of the field.
+    pub fn from_parameters(sequence: &GivenSequence) -> Result<Self> {
+        Ok(Self::of(Model::given(sequence)?))
     }
 
     fn of(model: Model) -> Self {
@@ -182,7 +175,7 @@ impl ConditionallyMarkovSequence {
         self.measurements.clear();
     }
 
-    /// Draws `count` whole sequences, of `(N + 1) s` numbers each, state by state. Measurements have no influence. The same
+    /// Draws `count` sequences, of `(N + 1) s` numbers each, state by state. Measurements have no influence. The same
     /// seed gives the same numbers, on other processors to rounding.
     ///
     /// # Errors

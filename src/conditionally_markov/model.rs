@@ -8,13 +8,15 @@
 //! ```
 //! and over several steps it is of the same form again.
 
+use super::description::{Boundary, GivenSequence, SequenceParameters, TimeStep};
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::{Factor, Gaussian, propagate};
 use crate::model::arrival::MAX_TIME;
 use crate::model::bridge::Bridge;
+use crate::model::matrix::Matrix;
 use crate::model::motion::{Motion, MotionModel};
-use crate::model::observation::{Observation, ObservationModel, read_covariance};
-use crate::value::{Fields, Node, Value, number};
+use crate::model::observation::ObservationModel;
+use crate::value::{Path, Value, number};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -27,14 +29,20 @@ const MAX_STATES: usize = 64;
 /// next pinned state `x_p`.
 ///
 /// ```
-/// use whither::{ConditionallyMarkovSequence, Value};
+/// use whither::{ConditionallyMarkovSequence, Motion, Observation, SequenceParameters};
 /// // a Brownian bridge over 4 steps: the first goes a quarter of the way
-/// let value: Value = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "timeStep": 1, "steps": 4,
-///     "pinnedMean": [0, 8], "pinnedCovariance": [[1, 0], [0, 1]], "observation": { "noise": 1 }
-/// }"#).unwrap();
-/// let step = ConditionallyMarkovSequence::new(&value).unwrap().model(1).unwrap();
+/// let sequence = ConditionallyMarkovSequence::new(&SequenceParameters {
+///     motion: Motion::brownian(1, 1.0),
+///     time_step: 1.0.into(),
+///     steps: 4,
+///     pins: None,
+///     pinned_mean: vec![0.0, 8.0],
+///     pinned_covariance: [[1.0, 0.0], [0.0, 1.0]].into(),
+///     observation: Observation::deviation(1.0),
+/// })?;
+/// let step = sequence.model(1)?;
 /// assert!((step.previous[(0, 0)] - 0.75).abs() < 1e-14 && (step.destination[(0, 0)] - 0.25).abs() < 1e-14);
+/// # Ok::<(), whither::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepModel {
@@ -74,7 +82,7 @@ enum Evolution {
         /// The centre of the destination, for motion models that know it.
         centre: Vec<f64>,
     },
-    /// As steps 1 to `N - 1` say.
+    /// As steps 1 to `N - 1` are given.
     Given(Vec<StepModel>),
 }
 
@@ -87,31 +95,25 @@ enum Times {
 }
 
 impl Times {
-    fn read(node: &Node<'_>, steps: usize) -> Result<Self> {
-        let times = Self::read_any(node, steps)?;
-        let whole = times.between(0, steps);
-        if whole > MAX_TIME {
-            let must = format!("must be at most 1e12 seconds for all steps, they take {}", number(whole));
-            return Err(node.error(Code::OutOfRange, &must));
-        }
-        Ok(times)
-    }
-
-    fn read_any(node: &Node<'_>, steps: usize) -> Result<Self> {
-        match node.value() {
-            Value::List(_) => {
-                node.vector(Some(steps))?;
+    fn new(time_step: &TimeStep, at: &Path<'_>, steps: usize) -> Result<Self> {
+        let times = match time_step {
+            TimeStep::Regular(step) => Self::Regular(at.positive(*step)?),
+            TimeStep::Irregular(each) => {
                 let mut time = 0.0;
                 let mut times = vec![0.0];
-                for item in node.items()? {
-                    time += item.positive()?;
+                for step in at.vector(each, steps, |at, x| at.positive(x))? {
+                    time += step;
                     times.push(time);
                 }
-                Ok(Self::Irregular(times))
+                Self::Irregular(times)
             }
-            Value::Number(_) => Ok(Self::Regular(node.positive()?)),
-            _ => Err(node.error(Code::WrongType, "must be a number, or a list with the length of each step")),
+        };
+        let total = times.between(0, steps);
+        if total > MAX_TIME {
+            let must = format!("must be at most 1e12 seconds for all steps, they take {}", number(total));
+            return Err(at.error(Code::OutOfRange, &must, time_step.to_value()));
         }
+        Ok(times)
     }
 
     /// The time from step `from` to step `to >= from`.
@@ -124,55 +126,57 @@ impl Times {
 }
 
 impl Model {
-    /// Reads `{ motion, timeStep, steps, pins?, pinnedMean, pinnedCovariance, observation }`.
-    pub fn induced(node: &Node<'_>) -> Result<Self> {
-        let keys = ["motion", "timeStep", "steps", "pins", "pinnedMean", "pinnedCovariance", "observation"];
-        let fields = node.fields(&keys)?;
-        let motion = read_motion(&fields.required("motion")?)?;
-        let steps = fields.required("steps")?.whole(1, MAX_STEPS)?;
-        let times = Times::read(&fields.required("timeStep")?, steps)?;
-        let pins = match fields.optional("pins") {
-            Some(node) => read_pins(&node, steps)?,
+    /// The model that a Markov model induces.
+    pub fn induced(parameters: &SequenceParameters) -> Result<Self> {
+        let root = Path::root("");
+        let SequenceParameters { motion, time_step, steps, pins, pinned_mean, pinned_covariance, observation } =
+            parameters;
+        let motion = one_model(motion, &root.key("motion"))?;
+        let steps = root.key("steps").whole(*steps as f64, 1, MAX_STEPS)?;
+        let times = Times::new(time_step, &root.key("timeStep"), steps)?;
+        let pins = match pins {
+            Some(pins) => check_pins(pins, &root.key("pins"), steps)?,
             None => vec![0, steps],
         };
         let (states, dimensions) = (motion.states(), motion.dimensions());
         let size = pins.len() * states;
-        let mean = DVector::from_vec(fields.required("pinnedMean")?.vector(Some(size))?);
-        let covariance = read_covariance(&fields.required("pinnedCovariance")?, size)?;
-        let node = fields.required("observation")?;
-        let observation = Observation::read(&node, dimensions)?.model(node.place(), dimensions, states)?;
-        let centre = mean.rows(size - states, dimensions).iter().copied().collect();
+        let mean = root.key("pinnedMean").vector(pinned_mean, size, |at, x| at.number(x))?;
+        let covariance = pinned_covariance.covariance(&root.key("pinnedCovariance"), size)?;
+        let observation = observation.model(&root.key("observation"), dimensions, states)?;
+        let centre = mean[size - states..][..dimensions].to_vec();
         let evolution = Evolution::Induced { motion, times, centre };
-        let model = Self { pins, pinned: Gaussian { mean, covariance }, states, dimensions, observation, evolution };
-        model.can_be_pinned(&fields)?;
+        let pinned = Gaussian { mean: DVector::from_vec(mean), covariance };
+        let model = Self { pins, pinned, states, dimensions, observation, evolution };
+        model.can_be_pinned()?;
         Ok(model)
     }
 
-    /// Reads `{ previous, destination, offset?, covariance, boundary, observation, dimensions? }`.
-    pub fn given(node: &Node<'_>) -> Result<Self> {
-        let keys = ["previous", "destination", "offset", "covariance", "boundary", "observation", "dimensions"];
-        let fields = node.fields(&keys)?;
-        let (pinned, states) = read_boundary(&fields.required("boundary")?)?;
-        let between = fields.required("previous")?.items()?.len();
+    /// The model that is given matrix by matrix.
+    pub fn given(sequence: &GivenSequence) -> Result<Self> {
+        let root = Path::root("");
+        let (pinned, s) = check_boundary(&sequence.boundary, &root.key("boundary"))?;
+        let (place, between) = (root.key("previous"), sequence.previous.len());
         if between >= MAX_STEPS {
             let must = format!("must have at most {} matrices, has {between}", MAX_STEPS - 1);
-            return Err(fields.required("previous")?.error(Code::TooLarge, &must));
+            return Err(place.error(Code::TooLarge, &must, list(&sequence.previous)));
         }
-        let square = |node: &Node<'_>| Ok(DMatrix::from_row_slice(states, states, &node.matrix(states, states)?));
-        let previous = read_each(&fields.required("previous")?, between, square)?;
-        let destination = read_each(&fields.required("destination")?, between, square)?;
-        let covariance = read_each(&fields.required("covariance")?, between, |node| read_covariance(node, states))?;
-        let offset = match fields.optional("offset") {
-            Some(node) => read_each(&node, between, |node| Ok(DVector::from_vec(node.vector(Some(states))?)))?,
-            None => vec![DVector::zeros(states); between],
+        let square = |matrix: &Matrix, at: &Path<'_>| matrix.check(at, s, s);
+        let previous = check_each(&sequence.previous, &place, between, square)?;
+        let destination = check_each(&sequence.destination, &root.key("destination"), between, square)?;
+        let covariance =
+            check_each(&sequence.covariance, &root.key("covariance"), between, |matrix, at| matrix.covariance(at, s))?;
+        let offset = match &sequence.offset {
+            None => vec![DVector::zeros(s); between],
+            Some(offset) => check_each(offset, &root.key("offset"), between, |offset, at| {
+                Ok(DVector::from_vec(at.vector(offset, s, |at, x| at.number(x))?))
+            })?,
         };
-        let dimensions = match fields.optional("dimensions") {
-            Some(node) => node.whole(1, states)?,
-            None if states.is_multiple_of(2) => states / 2,
-            None => states,
+        let dimensions = match sequence.dimensions {
+            Some(dimensions) => root.key("dimensions").whole(dimensions as f64, 1, s)?,
+            None if s.is_multiple_of(2) => s / 2,
+            None => s,
         };
-        let node = fields.required("observation")?;
-        let observation = Observation::read(&node, dimensions)?.model(node.place(), dimensions, states)?;
+        let observation = sequence.observation.model(&root.key("observation"), dimensions, s)?;
         let steps = previous
             .into_iter()
             .zip(destination)
@@ -185,7 +189,7 @@ impl Model {
             })
             .collect();
         let (pins, evolution) = (vec![0, between + 1], Evolution::Given(steps));
-        Ok(Self { pins, pinned, states, dimensions, observation, evolution })
+        Ok(Self { pins, pinned, states: s, dimensions, observation, evolution })
     }
 
     /// `N`.
@@ -229,7 +233,7 @@ impl Model {
                 let step = motion.transition(times.between(from, to));
                 let rest = motion.transition(times.between(to, self.next_pin(from)));
                 let bridge = Bridge::new(&step.transition, &step.noise, &rest.transition, &rest.noise, self.states)
-                    .ok_or_else(|| not_pinnable("motion"))?;
+                    .ok_or_else(not_pinnable)?;
                 let offset = bridge.offset(&step.constant(centre), &rest.constant(centre));
                 let Bridge { previous, destination, covariance, .. } = bridge;
                 Ok(StepModel { previous, destination, offset, covariance })
@@ -247,98 +251,100 @@ impl Model {
     }
 
     /// Refuses a motion model whose noise does not reach every component of the state.
-    fn can_be_pinned(&self, fields: &Fields<'_>) -> Result<()> {
-        match self.pins.windows(2).find(|pair| pair[1] - pair[0] > 1) {
-            Some(pair) => match self.between(pair[0], pair[0] + 1) {
-                Err(_) => Err(not_pinnable(&fields.required("motion")?.path())),
-                Ok(_) => Ok(()),
-            },
-            None => Ok(()),
-        }
+    fn can_be_pinned(&self) -> Result<()> {
+        let segment = self.pins.windows(2).find(|pair| pair[1] - pair[0] > 1);
+        segment.map_or(Ok(()), |pair| self.between(pair[0], pair[0] + 1).map(|_| ()))
     }
 }
 
-fn not_pinnable(path: &str) -> Error {
+fn not_pinnable() -> Error {
     Error::new(
         Code::NotPositiveDefinite,
-        path,
+        "motion",
         "must have noise that reaches every component of the state: otherwise the state at the end is determined by the one at the start",
     )
 }
 
-fn read_motion(node: &Node<'_>) -> Result<Arc<dyn MotionModel>> {
-    let motion = Motion::read(node)?.models(node.place())?;
-    if motion.speed_noise.is_some() {
+fn one_model(motion: &Motion, at: &Path<'_>) -> Result<Arc<dyn MotionModel>> {
+    let models = motion.models(at)?;
+    if models.speed_noise.is_some() {
         let message = "speedNoise makes the model nonlinear, a sequence needs a linear one";
-        return Err(Error::new(Code::UnknownKey, format!("{}.speedNoise", node.path()), message));
+        return Err(Error::new(Code::UnknownKey, at.key("speedNoise").to_string(), message));
     }
-    match motion.candidates.as_slice() {
+    match models.candidates.as_slice() {
         [only] => Ok(Arc::clone(&only.model)),
         several => {
             let message = format!("must be one noise, got {} candidates: a sequence has one model", several.len());
-            Err(Error::new(Code::OutOfRange, format!("{}.noise", node.path()), message))
+            Err(Error::new(Code::OutOfRange, at.key("noise").to_string(), message))
         }
     }
 }
 
-fn read_pins(node: &Node<'_>, steps: usize) -> Result<Vec<usize>> {
-    let must = format!("must be ascending whole numbers that begin with 0 and end with steps, {steps}");
-    let pins = node
-        .items()?
-        .map(|item| match item.value() {
-            Value::Number(x) if x.fract() == 0.0 && *x >= 0.0 && *x <= steps as f64 => Ok(*x as usize),
-            Value::Number(_) => Err(item.error(Code::OutOfRange, &format!("must be a whole number from 0 to {steps}"))),
-            _ => item.whole(0, steps),
-        })
-        .collect::<Result<Vec<_>>>()?;
-    let ends = pins.len() >= 2 && pins.first() == Some(&0) && pins.last() == Some(&steps);
-    if !ends || pins.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err(node.error(Code::OutOfRange, &must));
+fn check_pins(pins: &[usize], at: &Path<'_>, steps: usize) -> Result<Vec<usize>> {
+    let numbers: Vec<f64> = pins.iter().map(|&pin| pin as f64).collect();
+    if let Some(i) = pins.iter().position(|&pin| pin > steps) {
+        let must = format!("must be a whole number from 0 to {steps}");
+        return Err(at.index(i).error(Code::OutOfRange, &must, numbers[i]));
     }
-    Ok(pins)
+    let complete = pins.len() >= 2 && pins.first() == Some(&0) && pins.last() == Some(&steps);
+    if !complete || pins.windows(2).any(|pair| pair[0] >= pair[1]) {
+        let must = format!("must be ascending whole numbers that begin with 0 and end with steps, {steps}");
+        return Err(at.error(Code::OutOfRange, &must, numbers.as_slice()));
+    }
+    Ok(pins.to_vec())
 }
 
-/// Reads the boundary condition (3), `{ originMean?, destinationMean?, gain?, originCovariance, destinationCovariance }`,
-/// with `gain` `G_{0,N}` and `originCovariance` `G_0`; and the number of components of one state.
-fn read_boundary(node: &Node<'_>) -> Result<(Gaussian, usize)> {
-    let keys = ["originMean", "destinationMean", "gain", "originCovariance", "destinationCovariance"];
-    let fields = node.fields(&keys)?;
-    let destination = fields.required("destinationCovariance")?;
-    let s = destination.items()?.len();
+/// The joint density of the boundary condition (3), and the number of components of one state.
+fn check_boundary(boundary: &Boundary, at: &Path<'_>) -> Result<(Gaussian, usize)> {
+    let Boundary { origin_mean, destination_mean, gain, origin_covariance, destination_covariance } = boundary;
+    let (place, s) = (at.key("destinationCovariance"), destination_covariance.rows());
     if s == 0 || s > MAX_STATES {
-        return Err(destination.error(Code::WrongLength, &format!("must have 1 to {MAX_STATES} rows")));
+        let must = format!("must have 1 to {MAX_STATES} rows");
+        return Err(place.error(Code::WrongLength, &must, destination_covariance));
     }
-    let c_n = read_covariance(&destination, s)?;
-    let g_0 = read_covariance(&fields.required("originCovariance")?, s)?;
-    let gain = match fields.optional("gain") {
-        Some(node) => DMatrix::from_row_slice(s, s, &node.matrix(s, s)?),
-        None => DMatrix::zeros(s, s),
-    };
+    let c_n = destination_covariance.covariance(&place, s)?;
+    let g_0 = origin_covariance.covariance(&at.key("originCovariance"), s)?;
+    let place = at.key("gain");
+    let g_0n = gain.as_ref().map_or_else(|| Ok(DMatrix::zeros(s, s)), |gain| gain.check(&place, s, s))?;
     let mut mean = DVector::zeros(2 * s);
-    for (key, from) in [("originMean", 0), ("destinationMean", s)] {
-        if let Some(node) = fields.optional(key) {
-            mean.rows_mut(from, s).copy_from_slice(&node.vector(Some(s))?);
+    for (key, given, from) in [("originMean", origin_mean, 0), ("destinationMean", destination_mean, s)] {
+        if let Some(given) = given {
+            mean.rows_mut(from, s).copy_from_slice(&at.key(key).vector(given, s, |at, x| at.number(x))?);
         }
     }
     let mut covariance = DMatrix::zeros(2 * s, 2 * s);
-    let cross = &gain * &c_n;
-    covariance.view_mut((0, 0), (s, s)).copy_from(&propagate(&gain, &c_n, &g_0));
+    let cross = &g_0n * &c_n;
+    covariance.view_mut((0, 0), (s, s)).copy_from(&propagate(&g_0n, &c_n, &g_0));
     covariance.view_mut((0, s), (s, s)).copy_from(&cross);
     covariance.view_mut((s, 0), (s, s)).tr_copy_from(&cross);
     covariance.view_mut((s, s), (s, s)).copy_from(&c_n);
     if Factor::new(covariance.clone()).is_none() {
         let must = "must leave the joint covariance of origin and destination positive definite";
-        return Err(fields.required("gain")?.error(Code::NotPositiveDefinite, must));
+        return Err(place.error(Code::NotPositiveDefinite, must, gain.as_ref().map_or(Value::Null, Value::from)));
     }
     Ok((Gaussian { mean, covariance }, s))
 }
 
-/// Reads one item for each of steps 1 to `N - 1`.
-fn read_each<T>(node: &Node<'_>, count: usize, read: impl Fn(&Node<'_>) -> Result<T>) -> Result<Vec<T>> {
-    let items = node.items()?;
+/// One item for each of steps 1 to `N - 1`.
+fn check_each<T, U>(
+    items: &[T],
+    at: &Path<'_>,
+    count: usize,
+    check: impl Fn(&T, &Path<'_>) -> Result<U>,
+) -> Result<Vec<U>>
+where
+    for<'a> Value: From<&'a T>,
+{
     if items.len() != count {
         let must = format!("must have {count} items, one for each step between the ends, has {}", items.len());
-        return Err(node.error(Code::WrongLength, &must));
+        return Err(at.error(Code::WrongLength, &must, list(items)));
     }
-    items.map(|item| read(&item)).collect()
+    items.iter().enumerate().map(|(i, item)| check(item, &at.index(i))).collect()
+}
+
+fn list<T>(items: &[T]) -> Value
+where
+    for<'a> Value: From<&'a T>,
+{
+    Value::List(items.iter().map(Value::from).collect())
 }

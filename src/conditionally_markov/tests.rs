@@ -1,6 +1,7 @@
 use super::*;
 use crate::math::gaussian::{Factor, condition};
 use crate::math::kalman;
+use crate::value::Value;
 use nalgebra::{DMatrix, DVector, dmatrix};
 
 fn value(json: serde_json::Value) -> Value {
@@ -8,7 +9,7 @@ fn value(json: serde_json::Value) -> Value {
 }
 
 fn sequence(json: serde_json::Value) -> ConditionallyMarkovSequence {
-    ConditionallyMarkovSequence::new(&value(json)).unwrap()
+    crate::internals::sequence(&value(json)).unwrap()
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
@@ -48,7 +49,7 @@ fn given(steps: usize) -> ConditionallyMarkovSequence {
         },
         "observation": { "noise": 0.4 },
     });
-    ConditionallyMarkovSequence::from_parameters(&value(parameters)).unwrap()
+    crate::internals::given_sequence(&value(parameters)).unwrap()
 }
 
 /// The density of all states stacked, from the model as a linear map of independent deviations: no recursion is shared with
@@ -117,7 +118,7 @@ fn a_sequence_given_by_the_matrices_of_an_induced_one_is_the_same() {
     let each = |part: fn(StepModel) -> DMatrix<f64>| {
         (1..steps).map(|k| rows(&part(induced.model(k).unwrap()))).collect::<Vec<_>>()
     };
-    let mut given = ConditionallyMarkovSequence::from_parameters(&value(serde_json::json!({
+    let mut given = crate::internals::given_sequence(&value(serde_json::json!({
         "previous": each(|step| step.previous), "destination": each(|step| step.destination),
         "covariance": each(|step| step.covariance),
         // C_{0,N} C_N^-1 and C_0 - C_{0,N} C_N^-1 C_{0,N}'
@@ -244,7 +245,7 @@ fn what_is_reciprocal_and_what_is_markov() {
 fn a_sequence_that_depends_on_its_past_alone_is_markov() {
     // G_{k,N} = 0 and G_{0,N} = 0: x_0 .. x_{N-1} is Markov and independent of x_N
     let zeros = vec![vec![vec![0.0]]; 4];
-    let sequence = ConditionallyMarkovSequence::from_parameters(&value(serde_json::json!({
+    let sequence = crate::internals::given_sequence(&value(serde_json::json!({
         "previous": vec![vec![vec![0.5]]; 4], "destination": zeros, "covariance": vec![vec![vec![0.3]]; 4],
         "boundary": { "originCovariance": [[1]], "destinationCovariance": [[2]] }, "observation": { "noise": 1 },
     })))

@@ -145,6 +145,12 @@ impl From<&[f64]> for Value {
     }
 }
 
+impl From<&Vec<f64>> for Value {
+    fn from(numbers: &Vec<f64>) -> Self {
+        Self::numbers(numbers)
+    }
+}
+
 /// A value and its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<'a> {

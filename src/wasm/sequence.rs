@@ -3,6 +3,7 @@
 use super::{Result, data, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
 use crate::error::Code;
+use crate::internals;
 use crate::value::Node;
 use nalgebra::DMatrix;
 use wasm_bindgen::JsValue;
@@ -20,12 +21,12 @@ impl SequenceEngine {
     /// A sequence induced by a Markov model.
     #[wasm_bindgen(constructor)]
     pub fn new(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::new(&data::read(&value)?)? })
+        Ok(Self { sequence: internals::sequence(&data::read(&value)?)? })
     }
 
     /// A sequence given matrix by matrix.
     pub fn from_parameters(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: ConditionallyMarkovSequence::from_parameters(&data::read(&value)?)? })
+        Ok(Self { sequence: internals::given_sequence(&data::read(&value)?)? })
     }
 
     /// The number of components of one state.
@@ -78,7 +79,7 @@ impl SequenceEngine {
         self.sequence.reset();
     }
 
-    /// `{ seed, count }` whole sequences, one behind the other.
+    /// `{ seed, count }` sequences, one behind the other.
     pub fn sample(&self, value: JsValue) -> Result<Vec<f64>> {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");

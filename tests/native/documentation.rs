@@ -16,7 +16,10 @@ fn types(folder: &Path, found: &mut Vec<(String, String, bool)>) {
     for entry in std::fs::read_dir(folder).unwrap().flatten() {
         let path = entry.path();
         if path.is_dir() {
-            types(&path, found);
+            // the boundary has names of its own
+            if !path.ends_with("wasm") {
+                types(&path, found);
+            }
             continue;
         }
         let (mut commented, mut example) = (false, false);

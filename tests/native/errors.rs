@@ -90,8 +90,8 @@ fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
     Ok(match base {
         "scenario" | "pointing" => Box::new(Predictor::new(&Scenario::from_value(&given)?)),
         "snapshot" => Box::new(Predictor::restore(&given)?),
-        "sequence" => Box::new(ConditionallyMarkovSequence::new(&given)?),
-        "parameters" => Box::new(ConditionallyMarkovSequence::from_parameters(&given)?),
+        "sequence" => Box::new(whither::internals::sequence(&given)?),
+        "parameters" => Box::new(whither::internals::given_sequence(&given)?),
         "pointer" => {
             let target = |target: &Json| PointerTarget {
                 id: target["id"].as_str().unwrap().to_owned(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Each part of the crate and the parts that it may name with `crate::`. `error` and `value` are at the bottom.
-const RUST: [(&str, &[&str]); 15] = [
+const RUST: [(&str, &[&str]); 16] = [
     ("error", &[]),
     // the numbers of messages, as JavaScript prints them
     ("value", &["wasm"]),
@@ -21,7 +21,11 @@ const RUST: [(&str, &[&str]); 15] = [
     ("predictor", &["math", "model", "posterior", "engine", "likelihood", "scenario", "predictor"]),
     ("snapshot", &["model", "scenario", "predictor"]),
     ("study", &["math", "model", "likelihood", "pointing", "scenario", "predictor", "snapshot", "study"]),
-    ("wasm", &["math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"]),
+    ("internals", &["math", "model", "conditionally_markov", "scenario", "predictor", "snapshot", "study"]),
+    (
+        "wasm",
+        &["internals", "math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"],
+    ),
 ];
 
 /// Methods of the papers never import one another.

@@ -5,7 +5,7 @@ use crate::problem::{Draw, choices, random};
 use crate::support::{predictor, relative, value};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
-use whither::{ConditionallyMarkovSequence, Gaussian, Predictor};
+use whither::{Gaussian, Predictor};
 
 const METHODS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
@@ -98,7 +98,7 @@ fn bridging_and_the_single_filter_are_the_conditionally_markov_sequence() {
                 "motion": motion, "timeStep": step, "steps": steps, "observation": { "noise": 0.3 },
                 "pinnedMean": pinned_mean, "pinnedCovariance": pinned,
             });
-            ConditionallyMarkovSequence::new(&value(&configuration)).unwrap()
+            whither::internals::sequence(&value(&configuration)).unwrap()
         };
         for method in ["bridging", "singleFilter"] {
             let mut sequence = sequence(&motion);

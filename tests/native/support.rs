@@ -65,7 +65,7 @@ pub fn predictor(scenario: &Json) -> Predictor {
 
 /// A sequence from JSON.
 pub fn sequence(configuration: &Json) -> ConditionallyMarkovSequence {
-    ConditionallyMarkovSequence::new(&value(configuration)).unwrap()
+    whither::internals::sequence(&value(configuration)).unwrap()
 }
 
 /// The lists of numbers in a list.

@@ -190,14 +190,7 @@ impl Motion {
     /// # Errors
     /// `wrong-length`, `not-finite`, `out-of-range`, `too-large`, `not-positive-definite`.
     pub(crate) fn models(&self, at: &Path<'_>) -> Result<MotionModels> {
-        let (Self::Brownian { dimensions, .. }
-        | Self::ConstantVelocity { dimensions, .. }
-        | Self::ConstantAcceleration { dimensions, .. }
-        | Self::IntegratedOrnsteinUhlenbeck { dimensions, .. }
-        | Self::MeanReverting { dimensions, .. }
-        | Self::EquilibriumRevertingVelocity { dimensions, .. }
-        | Self::Custom { dimensions, .. }) = self;
-        let dimensions = check_dimensions(&at.key("dimensions"), *dimensions as f64)?;
+        let dimensions = check_dimensions(&at.key("dimensions"), self.dimensions() as f64)?;
         let noises = match self.noise() {
             Some(noise) => noise.check(&at.key("noise"), dimensions)?,
             None => vec![(Vec::new(), 1.0)],
@@ -224,6 +217,18 @@ impl Motion {
             depends_on_destination: first.depends_on_destination(),
             description: self.clone(),
         })
+    }
+
+    /// Spatial dimensions `d`.
+    pub(crate) const fn dimensions(&self) -> usize {
+        let (Self::Brownian { dimensions, .. }
+        | Self::ConstantVelocity { dimensions, .. }
+        | Self::ConstantAcceleration { dimensions, .. }
+        | Self::IntegratedOrnsteinUhlenbeck { dimensions, .. }
+        | Self::MeanReverting { dimensions, .. }
+        | Self::EquilibriumRevertingVelocity { dimensions, .. }
+        | Self::Custom { dimensions, .. }) = self;
+        *dimensions
     }
 
     fn noise(&self) -> Option<&MotionNoise> {

@@ -21,7 +21,7 @@ fn airliner(mean: Vec<f64>, covariance: Vec<Vec<f64>>) -> ConditionallyMarkovSeq
         "observation": { "noise": 10 },
     }))
     .expect("plain data");
-    ConditionallyMarkovSequence::new(&configuration).expect("the paper's numbers are legal")
+    whither::internals::sequence(&configuration).expect("the paper's numbers are legal")
 }
 
 const ORIGIN: [f64; 4] = [2000.0, 5000.0, 70.0, 0.0];

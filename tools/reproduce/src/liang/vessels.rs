@@ -6,7 +6,7 @@ use crate::report::{Exhibit, Table};
 use crate::{Effort, random};
 use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke, chart};
 use serde_json::json;
-use whither::{ConditionallyMarkovSequence, Scenario, Value};
+use whither::{Scenario, Value};
 
 /// The harbours' centres in metres, around a bay; not in the paper.
 pub const HARBOURS: [[f64; 2]; 6] = [
@@ -82,7 +82,7 @@ pub fn vessel(truth: usize, random: &mut random::Normals) -> Vessel {
         "observation": { "noise": 10 },
     }))
     .expect("plain data");
-    let sequence = ConditionallyMarkovSequence::new(&configuration).expect("it is legal");
+    let sequence = whither::internals::sequence(&configuration).expect("it is legal");
     let seed = random.between(0.0, 1e9) as u64;
     let states = sequence.sample(seed, 1).expect("one is not too many").concat();
     let reported = [states[2] + REPORTED * random.draw(), states[3] + REPORTED * random.draw()];
