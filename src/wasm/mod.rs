@@ -24,8 +24,7 @@ pub use predictor::Engine;
 pub use sequence::SequenceEngine;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// What everything here that can fail returns.
-pub type Result<T> = std::result::Result<T, WhitherError>;
+type Result<T> = std::result::Result<T, WhitherError>;
 
 #[wasm_bindgen]
 extern "C" {

@@ -1,11 +1,11 @@
 //! The classes that JavaScript gets answer as the library does: constructing, observing, snapshots, sequences.
 
-use crate::node::{at, globals, json, parts, plain};
+use crate::node::{Result, at, globals, json, parts, plain};
 use crate::support::{golden, numbers, predictor, read, rows, scenario_of, sequence};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
 use whither::conditionally_markov::DEFAULT_TOLERANCE;
-use whither::wasm::{Engine, Result, SequenceEngine, pointer_scenario};
+use whither::wasm::{Engine, SequenceEngine, pointer_scenario};
 use whither::{Gaussian, Predictor};
 
 fn good<T>(result: Result<T>) -> T {

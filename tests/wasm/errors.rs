@@ -1,10 +1,10 @@
 //! Every row of `tests/errors.json` through the boundary: what a row is, `tests/native/errors.rs` has.
 
-use crate::node::{globals, json, parts, plain};
+use crate::node::{Result, globals, json, parts, plain};
 use crate::support::{change, read};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
-use whither::wasm::{Engine, Result, SequenceEngine, pointer_scenario};
+use whither::wasm::{Engine, SequenceEngine, pointer_scenario};
 
 enum Subject {
     Predictor(Engine),

@@ -5,6 +5,10 @@ use serde_json::Value as Json;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 use whither::Value;
+use whither::wasm::WhitherError;
+
+/// What everything at the boundary that can fail returns.
+pub type Result<T> = std::result::Result<T, WhitherError>;
 
 #[wasm_bindgen(module = "node:fs")]
 extern "C" {
