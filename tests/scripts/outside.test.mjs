@@ -22,9 +22,10 @@ function outside(path, text) {
   const steps = [...text.matchAll(/(?:\.\.\/)+[\w.]*/g)]
     .map(([found]) => found)
     .filter((found) => found.split("../").length - 1 > depth);
-  const machine = [...text.matchAll(/(?<![\w.$}~-])\/(?:work|home|root|Users|tmp)\/[\w./-]*|\.\.\/shared\/[\w./-]*/g)].map(
-    ([found]) => found,
-  );
+  const machine = [...text.matchAll(/(?<![\w.$}~-])\/(?:work|home|root|Users|tmp)\/[\w./-]*|\.\.\/shared\/[\w./-]*/g)]
+    .map(([found]) => found)
+    // the folder that the pages share
+    .filter((found) => !(path.startsWith("www/") && found.startsWith("../shared/")));
   return [...steps, ...machine];
 }
 
