@@ -8,5 +8,5 @@ pub(crate) mod kernel;
 pub mod log_sum_exp;
 pub mod quadrature;
 pub mod random;
-pub mod small_root;
+pub(crate) mod small_gaussian;
 pub mod van_loan;

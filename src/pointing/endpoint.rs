@@ -16,6 +16,7 @@ use crate::math::gaussian::LN_2_PI;
 use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
+use crate::math::small_gaussian::inverse;
 use std::ops::Range;
 
 /// One (scale, time to go).
@@ -155,7 +156,7 @@ impl Nodes {
         let mut terms = into.iter_mut();
         for (pairs, lanes) in self.together() {
             let covariance = sum(&loaded(&pairs.covariance), &splat(own));
-            let ([xx, xy, yy, xz, yz, zz], determinant) = inverse_of(&covariance, self.dimensions);
+            let ([xx, xy, yy, xz, yz, zz], determinant) = inverse(&covariance, self.dimensions);
             let [mut a, mut b, mut c, mut d, mut e, mut f, mut factor] = [[0.0; WIDTH]; 7];
             (half * xx).store(&mut a);
             (whole * xy).store(&mut b);
@@ -202,7 +203,7 @@ impl Nodes {
 /// The variance of the position in one axis, some time from now, but for the noise until then.
 #[inline(always)]
 fn grown(course: &Course, axis: usize, time: Lanes) -> Lanes {
-    let [pp, pv, vv] = course.axes[axis].covariance;
+    let [[pp, pv], [_, vv]] = course.axes[axis].covariance;
     Lanes::splat(pp) + time * (Lanes::splat(pv + pv) + time * Lanes::splat(vv))
 }
 
@@ -274,32 +275,6 @@ pub fn spread<N: Number>(noise: &[f64; 2], velocity: &Vector, factor: N) -> Symm
     let (even, along) = (N::of(noise[0]) * factor, N::of(noise[1]) * factor);
     let (xx, yy, zz) = (along * N::of(x * x), along * N::of(y * y), along * N::of(z * z));
     [even + xx, along * N::of(x * y), even + yy, along * N::of(x * z), along * N::of(y * z), even + zz]
-}
-
-/// The inverse and the determinant of a positive definite matrix; entries beyond the dimensions are zero.
-#[inline(never)]
-#[must_use]
-pub fn inverse(matrix: &Symmetric, dimensions: usize) -> (Symmetric, f64) {
-    inverse_of(matrix, dimensions)
-}
-
-#[inline(always)]
-fn inverse_of<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (Symmetric<N>, N) {
-    let [xx, xy, yy, xz, yz, zz] = *matrix;
-    let (zero, one) = (N::of(0.0), N::of(1.0));
-    if dimensions == 1 {
-        return ([one / xx, zero, zero, zero, zero, zero], xx);
-    }
-    let f = xx * yy - xy * xy;
-    if dimensions == 2 {
-        let over = one / f;
-        return ([yy * over, (zero - xy) * over, xx * over, zero, zero, zero], f);
-    }
-    let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xx * zz - xz * xz);
-    let (d, e) = (xy * yz - xz * yy, xy * xz - xx * yz);
-    let determinant = xx * a + xy * b + xz * d;
-    let over = one / determinant;
-    ([a * over, b * over, c * over, d * over, e * over, f * over], determinant)
 }
 
 /// A symmetric matrix times a vector.

@@ -34,6 +34,7 @@ mod state;
 pub(crate) mod targets;
 
 use crate::math::log_sum_exp::share;
+pub(crate) use crate::math::small_gaussian::Symmetric;
 use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
@@ -51,9 +52,6 @@ use targets::Targets;
 /// assert_eq!((way, dot(&way, &way)), ([3.0, 4.0, 0.0], 25.0));
 /// ```
 pub type Vector = [f64; 3];
-
-/// A symmetric matrix: xx, xy, yy, xz, yz, zz.
-pub(crate) type Symmetric<N = f64> = [N; 6];
 
 /// The inner product.
 #[must_use]

@@ -84,7 +84,7 @@ impl Pointing {
     fn at_start(&self, pair: &Pair) -> View {
         let d = self.course().dimensions();
         let axis = |j: usize| &self.course().axes[j];
-        let first = |j: usize| if j < d { axis(j).first[0] - axis(j).position } else { axis(j - d).first[1] };
+        let first = |j: usize| if j < d { axis(j).first[0] - axis(j).now[0] } else { axis(j - d).first[1] };
         View {
             mean: DVector::from_fn(2 * d, |j, _| first(j)),
             root: self.root(),

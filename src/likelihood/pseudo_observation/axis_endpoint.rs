@@ -159,7 +159,7 @@ impl Spread {
     pub fn ends(&self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Ends {
         let (s, length) = (table.states, end.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
-        let first = plus(Lanes::load(&rows[s]), rows, &filter.mean, s);
+        let first = plus(Lanes::load(&rows[s]), rows, &filter.now, s);
         let mut exponent = Lanes::splat(0.0);
         if length == 1 {
             return Ends { mean: first, variance: self.variance, density: self.density, exponent };
@@ -167,7 +167,7 @@ impl Spread {
         let mut mean = [first; MOST];
         let mut place = s + 2;
         for i in 1..length {
-            mean[i] = plus(Lanes::load(&rows[place + s]), &rows[place..], &filter.mean, s);
+            mean[i] = plus(Lanes::load(&rows[place + s]), &rows[place..], &filter.now, s);
             place += s + 2 + i;
         }
         for r in (1..length).rev() {

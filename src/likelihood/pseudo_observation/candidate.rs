@@ -61,10 +61,7 @@ impl Candidate {
     /// The position now.
     pub fn position(&self) -> [f64; AXES] {
         match &self.source {
-            Source::Separable { now, .. } => {
-                let [x, y, z] = &now.filters;
-                [x.mean[0], y.mean[0], z.mean[0]]
-            }
+            Source::Separable { now, .. } => [now.filters[0].now[0], now.filters[1].now[0], now.filters[2].now[0]],
             Source::Coupled(coupled) => {
                 let s = coupled.filter.states;
                 std::array::from_fn(|k| if k < s { coupled.filter.means[(s + k, 0)] } else { 0.0 })
@@ -95,7 +92,7 @@ impl Candidate {
                 let mut predicted;
                 let (start, start_tables) = if nodes.from_now {
                     predicted = *first;
-                    predicted.foresee(model, elapsed);
+                    predicted.propagate(model, elapsed);
                     (&predicted, &to_now.axes)
                 } else {
                     to_start.fill_axes(model, first, number, axes, nodes, 0.0);
@@ -147,7 +144,7 @@ impl StepsTo {
         if self.is(number, passed) && self.axes[0].length() >= length {
             return;
         }
-        for axis in (0..axes.dimensions).filter(|&axis| axis == 0 || !axes.alike[axis]) {
+        for axis in (0..axes.filters.dimensions()).filter(|&axis| axis == 0 || !axes.alike[axis]) {
             let length = length.min(axes.filters[axis].states());
             self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
         }

@@ -96,8 +96,8 @@ impl Work {
     pub fn see(&mut self, sight: &Sight<'_>, axes: &[AxisEnd; MOST]) {
         let (now, start) = (sight.now, sight.start);
         let mut alike = [true; MOST];
-        for k in 1..now.dimensions {
-            alike[k] = now.twins[k] && start.twins[k] && axes[k].alike;
+        for k in 1..now.filters.dimensions() {
+            alike[k] = now.filters.is_twin(k) && start.filters.is_twin(k) && axes[k].alike;
             self.round &= alike[k];
         }
         let [mut first, mut first_start, mut own, mut own_start] = [Spread::empty(); 4];
@@ -107,7 +107,7 @@ impl Work {
             let mut exponent = Lanes::splat(sight.lead);
             let mut density = Lanes::splat(1.0);
             let mut start_density = Lanes::splat(1.0);
-            for axis in 0..now.dimensions {
+            for axis in 0..now.filters.dimensions() {
                 let of = if now.alike[axis] { 0 } else { axis };
                 let (table, start_table) = (&sight.tables[of], &sight.start_tables[of]);
                 let (filter, start_filter, end) = (&now.filters[axis], &start.filters[axis], &axes[axis]);

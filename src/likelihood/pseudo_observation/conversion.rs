@@ -1,19 +1,22 @@
-//! Between the filters of separate axes and that of the complete state; every number is the same on both sides.
+//! Between the filters of separate axes and that of the joint state; every number is the same on both sides.
 
 use super::coupled::Coupled;
-use super::separable::{Axes, AxisFilter, MOST};
+use super::separable::{Axes, AxisFilter, axes_of_model};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
+use crate::math::kernel::mixture::AXES;
+use crate::math::small_gaussian::axis_filter::AxisFilters;
 use crate::model::motion::MotionModel;
 use nalgebra::{DMatrix, DVector};
+use std::array::from_fn;
 
-/// The filter of the complete state from those of separate axes.
+/// The filter of the joint state from those of separate axes.
 pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
-    let (start, filter) = (complete(first), complete(now));
+    let (start, filter) = (joint(first), joint(now));
     let s = filter.states;
     let mut covariance = DMatrix::zeros(s, s);
-    let d = first.dimensions;
-    for (axis, of) in first.filters.iter().enumerate().take(d) {
+    let d = first.filters.dimensions();
+    for (axis, of) in first.filters.iter().enumerate() {
         for i in 0..of.states() {
             for j in 0..of.states() {
                 covariance[(i * d + axis, j * d + axis)] = of.covariance[i][j];
@@ -24,18 +27,18 @@ pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
     Coupled { first, filter }
 }
 
-fn complete(axes: &Axes) -> Filter {
-    let d = axes.dimensions;
-    let s = axes.filters.iter().take(d).map(AxisFilter::states).sum();
+fn joint(axes: &Axes) -> Filter {
+    let d = axes.filters.dimensions();
+    let s = axes.filters.iter().map(AxisFilter::states).sum();
     let zero = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
     let mut filter = Filter::new(&zero, 1);
     filter.log_evidence = vec![axes.log_evidence];
-    for (axis, of) in axes.filters.iter().enumerate().take(d) {
-        for (from, to) in places(of.states(), axis, d, s) {
-            filter.means[(to, 0)] = of.mean[from];
-        }
+    for (axis, of) in axes.filters.iter().enumerate() {
         let n = of.states();
-        for (i, row) in of.root.iter().enumerate().take(2 * n) {
+        for (i, mean) in of.first[..n].iter().chain(&of.now[..n]).enumerate() {
+            filter.means[(row_of(i, n, axis, d, s), 0)] = *mean;
+        }
+        for (i, row) in of.root().iter().enumerate().take(2 * n) {
             for (j, entry) in row.iter().enumerate().take(2 * n) {
                 filter.root[(row_of(i, n, axis, d, s), row_of(j, n, axis, d, s))] = *entry;
             }
@@ -44,20 +47,24 @@ fn complete(axes: &Axes) -> Filter {
     filter
 }
 
-/// The places of an axis's components, in its own filter and in that of the complete state, whose first half is the first state.
-fn places(states: usize, axis: usize, d: usize, s: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..states).flat_map(move |i| [(i, s + i * d + axis), (MOST + i, i * d + axis)])
-}
-
-/// The place of a row of an axis's root in that of the complete state; both have the first state first.
+/// Which component of the joint pair is component `i` of an axis's; both have the first state first.
 fn row_of(i: usize, states: usize, axis: usize, d: usize, s: usize) -> usize {
     if i < states { i * d + axis } else { s + (i - states) * d + axis }
 }
 
-/// The filters of separate axes from those of the complete state; none where the model or the state mixes axes.
+/// The filter of one axis of so many states from that of the joint state.
+fn axis_of(filter: &Filter, axis: usize, states: usize, d: usize) -> AxisFilter {
+    let row = |i: usize| row_of(i, states, axis, d, filter.states);
+    let mean = |i: usize, of: usize| if i < states { filter.means[(row(of + i), 0)] } else { 0.0 };
+    let entry = |i: usize, j: usize| if i.max(j) < 2 * states { filter.root[(row(i), row(j))] } else { 0.0 };
+    let root = from_fn(|i| from_fn(|j| entry(i, j)));
+    AxisFilter::new(states, from_fn(|i| mean(i, 0)), from_fn(|i| mean(i, states)), root)
+}
+
+/// The filters of separate axes from those of the joint state; none where the model or the state mixes axes.
 pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
-    let mut now = Axes::new(model)?;
-    let (d, s) = (now.dimensions, filter.states);
+    let (states, alike) = axes_of_model(model)?;
+    let (d, s) = (model.dimensions(), filter.states);
     if !filter.root.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -65,31 +72,16 @@ pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Op
     if (0..2 * s).any(|i| (0..2 * s).any(|j| mixes(i, j))) {
         return None;
     }
-    let mut start = now;
     let beginning = Filter::new(first, 1);
-    for axis in 0..d {
-        let states = now.filters[axis].states();
-        for (to, from) in places(states, axis, d, s) {
-            now.filters[axis].mean[to] = filter.means[(from, 0)];
-            start.filters[axis].mean[to] = first.mean[from % s];
-        }
-        for (axes, of) in [(&mut now, filter), (&mut start, &beginning)] {
-            for i in 0..2 * states {
-                for j in 0..2 * states {
-                    let entry = of.root[(row_of(i, states, axis, d, s), row_of(j, states, axis, d, s))];
-                    axes.filters[axis].root[i][j] = entry;
-                }
-            }
-            axes.filters[axis].square();
-        }
-        for i in 0..states {
-            for j in 0..states {
-                start.filters[axis].covariance[i][j] = first.covariance[(i * d + axis, j * d + axis)];
+    let mut start: [AxisFilter; AXES] = from_fn(|axis| axis_of(&beginning, axis, states[axis], d));
+    for (axis, one) in start.iter_mut().enumerate() {
+        for i in 0..one.states() {
+            for j in 0..one.states() {
+                one.covariance[i][j] = first.covariance[(i * d + axis, j * d + axis)];
             }
         }
     }
-    now.log_evidence = *filter.log_evidence.first()?;
-    now.find_twins();
-    start.find_twins();
-    Some((start, now))
+    let now = from_fn(|axis| axis_of(filter, axis, states[axis], d));
+    let axes = |filters, log_evidence| Axes { filters: AxisFilters::new(d, filters, &alike), alike, log_evidence };
+    Some((axes(start, 0.0), axes(now, *filter.log_evidence.first()?)))
 }

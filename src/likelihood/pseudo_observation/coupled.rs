@@ -5,10 +5,8 @@ use super::classes::End;
 use crate::math::gaussian::{Gaussian, propagate};
 use crate::math::kalman::Filter;
 use crate::math::kernel::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
+use crate::math::small_gaussian::{Matrix, eliminate};
 use crate::model::motion::{MotionModel, Transition};
-
-/// A matrix over the axes.
-type Matrix = [[f64; AXES]; AXES];
 
 /// The Kalman posterior now, and that of the first observation.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +35,7 @@ impl Coupled {
 #[derive(Clone, Copy, Debug)]
 struct EndpointPosition {
     mean: [f64; AXES],
-    covariance: Matrix,
+    covariance: Matrix<AXES>,
     /// The rest's density is the root of this ...
     density: f64,
     /// ... times two to this, and a constant.
@@ -123,8 +121,8 @@ pub fn ellipsoid(
 ) -> Option<Ellipsoid> {
     let here = EndpointPosition::new(now.0, now.1, end, d, room);
     let there = EndpointPosition::new(start.0, start.1, end, d, room);
-    let (precision, determinant) = inverse(here.covariance, d)?;
-    let (start_precision, start_determinant) = inverse(there.covariance, d)?;
+    let (precision, determinant) = eliminate(here.covariance, d)?;
+    let (start_precision, start_determinant) = eliminate(there.covariance, d)?;
     let mut term = Ellipsoid {
         center: here.mean,
         factor: factor * (start_determinant / determinant * (here.density / there.density)).sqrt(),
@@ -145,32 +143,4 @@ pub fn ellipsoid(
         }
     }
     Some(term)
-}
-
-/// The inverse and the determinant of a positive definite matrix over the first `d` axes; none where it is not.
-fn inverse(mut matrix: Matrix, d: usize) -> Option<(Matrix, f64)> {
-    let mut determinant = 1.0;
-    // Gauss and Jordan in place; a positive definite matrix needs no pivoting
-    for k in 0..d {
-        let pivot = matrix[k][k];
-        determinant *= pivot;
-        if !(pivot > 0.0) {
-            return None;
-        }
-        let over = 1.0 / pivot;
-        matrix[k][k] = 1.0;
-        for j in 0..d {
-            matrix[k][j] *= over;
-        }
-        let row = matrix[k];
-        for i in 0..d {
-            if i != k {
-                let factor = std::mem::replace(&mut matrix[i][k], 0.0);
-                for j in 0..d {
-                    matrix[i][j] -= factor * row[j];
-                }
-            }
-        }
-    }
-    Some((matrix, determinant))
 }

@@ -1,0 +1,293 @@
+//! The Kalman filter of one axis, and the filters of all axes, of which those that are alike share all but their means.
+
+use super::{Matrix, condition, triangularise};
+use crate::math::kernel::mixture::AXES;
+use std::ops::{Index, IndexMut};
+
+/// One step of an axis: `x_k = F x_{k-1} + M + e`, `e ~ N(0, L L')`.
+pub(crate) trait Step<const S: usize, const PAIR: usize> {
+    /// How many components the axis has; a constant here makes all loops over them short.
+    fn states(&self) -> usize;
+
+    /// Replaces `x` by `F x + M`.
+    fn mean(&self, x: &mut [f64; S]);
+
+    /// Replaces `X`, of two columns for each component, by `F X`.
+    fn root(&self, x: &mut [[f64; PAIR]; S]);
+
+    /// `L`, a root of the noise.
+    fn noise_root(&self) -> Matrix<S>;
+}
+
+/// The Kalman posterior of one axis of at most `S` components, over the pair (first state, state now), as
+/// [`crate::math::kalman::Filter`]: Liang (8) and the usual correction. `PAIR` is twice `S`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AxisFilter<const S: usize, const PAIR: usize> {
+    states: usize,
+    /// The mean of the first state given all observations.
+    pub first: [f64; S],
+    /// The mean of the state now.
+    pub now: [f64; S],
+    /// The covariance of the state now.
+    pub covariance: Matrix<S>,
+    root: [[f64; PAIR]; PAIR],
+}
+
+/// What one observation does to an axis, whatever its value.
+#[derive(Clone, Copy, Debug)]
+struct Correction<const PAIR: usize> {
+    /// Of the first state, then of the state now.
+    gain: [f64; PAIR],
+    /// The prediction error's variance.
+    variance: f64,
+}
+
+impl<const S: usize, const PAIR: usize> AxisFilter<S, PAIR> {
+    /// A filter of `states` components, with a root of the pair's covariance as [`AxisFilter::root`] returns it.
+    pub fn new(states: usize, first: [f64; S], now: [f64; S], root: [[f64; PAIR]; PAIR]) -> Self {
+        let mut filter = Self { states, first, now, covariance: [[0.0; S]; S], root };
+        filter.square(states);
+        filter
+    }
+
+    /// How many components the axis has.
+    pub const fn states(&self) -> usize {
+        self.states
+    }
+
+    /// A root of the pair's covariance, lower triangular: the rows of the first state, then those of the state now.
+    pub const fn root(&self) -> &[[f64; PAIR]; PAIR] {
+        &self.root
+    }
+
+    /// The covariance of the state now, from the root.
+    #[inline(always)]
+    fn square(&mut self, s: usize) {
+        for i in 0..s {
+            let row = &self.root[s + i];
+            for j in 0..i + 1 {
+                let (other, mut entry) = (&self.root[s + j], 0.0);
+                for q in 0..s + j + 1 {
+                    entry += row[q] * other[q];
+                }
+                self.covariance[i][j] = entry;
+                self.covariance[j][i] = entry;
+            }
+        }
+    }
+
+    /// Liang (8), the mean.
+    pub fn predict_mean(&mut self, step: &impl Step<S, PAIR>) {
+        step.mean(&mut self.now);
+    }
+
+    /// Liang (8), the root of the covariance.
+    fn predict_root(&mut self, step: &impl Step<S, PAIR>) {
+        let (s, noise) = (step.states(), step.noise_root());
+        let mut rows = [[0.0; PAIR]; S];
+        for (row, now) in rows.iter_mut().zip(&self.root[s..2 * s]) {
+            *row = *now;
+        }
+        step.root(&mut rows);
+        for i in 0..s {
+            self.root[s + i] = rows[i];
+            // what the state now does not share with the first one, and the noise beside it
+            for q in 0..s {
+                (rows[i][q], rows[i][s + q]) = (rows[i][s + q], noise[i][q]);
+            }
+        }
+        triangularise(&mut rows, s, 2 * s);
+        for i in 0..s {
+            for q in 0..s {
+                self.root[s + i][s + q] = rows[i][q];
+            }
+        }
+    }
+
+    /// The step, and the correction where the first component is observed with this variance, but for the means.
+    fn advance_root(&mut self, step: &impl Step<S, PAIR>, variance: Option<f64>) -> Option<Correction<PAIR>> {
+        self.predict_root(step);
+        let s = step.states();
+        let correction = variance.map(|variance| {
+            let (gain, variance) = condition(&mut self.root, 2 * s, s, variance);
+            Correction { gain, variance }
+        });
+        self.square(s);
+        correction
+    }
+
+    /// Corrects the means, and returns the prediction error.
+    fn correct_mean(&mut self, correction: &Correction<PAIR>, observed: f64) -> f64 {
+        let (s, error) = (self.states, observed - self.now[0]);
+        for i in 0..s {
+            self.first[i] += correction.gain[i] * error;
+            self.now[i] += correction.gain[s + i] * error;
+        }
+        error
+    }
+}
+
+/// The filters of the axes of one movement. An axis that moves as the first one does, began with its covariance and has been
+/// observed alike since is its twin: all but the means is computed once for both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AxisFilters<const S: usize, const PAIR: usize> {
+    dimensions: usize,
+    filters: [AxisFilter<S, PAIR>; AXES],
+    twins: [bool; AXES],
+}
+
+impl<const S: usize, const PAIR: usize> AxisFilters<S, PAIR> {
+    /// The filters of so many axes, those beyond them unused; `alike` is whether each moves as the first one does.
+    pub fn new(dimensions: usize, filters: [AxisFilter<S, PAIR>; AXES], alike: &[bool; AXES]) -> Self {
+        let [first, ..] = &filters;
+        let same = |one: &AxisFilter<S, PAIR>| {
+            one.states == first.states && one.root == first.root && one.covariance == first.covariance
+        };
+        let twins = std::array::from_fn(|axis| alike[axis] && same(&filters[axis]));
+        Self { dimensions, filters, twins }
+    }
+
+    /// How many axes there are.
+    pub const fn dimensions(&self) -> usize {
+        self.dimensions
+    }
+
+    /// Whether an axis is a twin of the first one, which is its own.
+    pub const fn is_twin(&self, axis: usize) -> bool {
+        self.twins[axis]
+    }
+
+    /// The filters of the axes that there are.
+    pub fn iter(&self) -> impl Iterator<Item = &AxisFilter<S, PAIR>> {
+        self.filters.iter().take(self.dimensions)
+    }
+
+    /// One observation after the step that `step` gives for an axis: positions where observed, and their variances. `innovation`
+    /// gets the prediction error of each and its variance. Where there is no step, the axes stay as they are.
+    pub fn advance<T: Step<S, PAIR>>(
+        &mut self,
+        step: impl Fn(usize) -> Option<T>,
+        position: &[Option<f64>],
+        variance: &[f64; AXES],
+        mut innovation: impl FnMut(f64, f64),
+    ) {
+        let Some(shared) = step(0) else { return };
+        let mut leading = None;
+        for axis in 0..self.dimensions {
+            let observed = position.get(axis).copied().flatten();
+            let (first, others) = self.filters.split_at_mut(axis.max(1));
+            let alike = self.twins[axis] && observed.is_some() == leading.is_some() && variance[axis] == variance[0];
+            let correction = if axis == 0 {
+                first[0].predict_mean(&shared);
+                leading = first[0].advance_root(&shared, observed.map(|_| variance[0]));
+                leading
+            } else if alike {
+                others[0].predict_mean(&shared);
+                (others[0].root, others[0].covariance) = (first[0].root, first[0].covariance);
+                leading
+            } else {
+                self.twins[axis] = false;
+                let Some(own) = step(axis) else { return };
+                others[0].predict_mean(&own);
+                others[0].advance_root(&own, observed.map(|_| variance[axis]))
+            };
+            if let (Some(observed), Some(correction)) = (observed, &correction) {
+                let error = self.filters[axis].correct_mean(correction, observed);
+                innovation(error, correction.variance);
+            }
+        }
+    }
+}
+
+impl<const S: usize, const PAIR: usize> Index<usize> for AxisFilters<S, PAIR> {
+    type Output = AxisFilter<S, PAIR>;
+
+    // without it the level for size makes each access a call
+    #[inline(always)]
+    fn index(&self, axis: usize) -> &Self::Output {
+        &self.filters[axis]
+    }
+}
+
+impl<const S: usize, const PAIR: usize> IndexMut<usize> for AxisFilters<S, PAIR> {
+    #[inline(always)]
+    fn index_mut(&mut self, axis: usize) -> &mut Self::Output {
+        &mut self.filters[axis]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::gaussian::Gaussian;
+    use crate::math::kalman::{Filter, Measurement, TimeUpdate};
+    use nalgebra::{DMatrix, dmatrix, dvector};
+
+    /// Constant velocity over one second, with the noise `L L'`.
+    struct Second;
+
+    const NOISE_ROOT: Matrix<2> = [[0.5, 0.0], [0.75, 0.25]];
+
+    impl Step<2, 4> for Second {
+        fn states(&self) -> usize {
+            2
+        }
+
+        fn mean(&self, x: &mut [f64; 2]) {
+            x[0] += x[1];
+        }
+
+        fn root(&self, [position, velocity]: &mut [[f64; 4]; 2]) {
+            position.iter_mut().zip(velocity).for_each(|(position, velocity)| *position += *velocity);
+        }
+
+        fn noise_root(&self) -> Matrix<2> {
+            NOISE_ROOT
+        }
+    }
+
+    /// The same with dynamic matrices, for one axis.
+    fn advance(filter: &mut Filter, observed: Option<f64>, variance: f64) {
+        let noise = DMatrix::from_fn(2, 2, |i, j| NOISE_ROOT[i][j]);
+        let (noise, zero) = (&noise * noise.transpose(), DMatrix::zeros(2, 1));
+        filter.predict(&TimeUpdate { transition: &dmatrix![1.0, 1.0; 0.0, 1.0], offsets: &zero, noise: &noise });
+        if let Some(y) = observed {
+            let (value, matrix) = (dvector![y], dmatrix![1.0, 0.0]);
+            assert!(filter.correct(&Measurement { value, matrix, noise: dmatrix![variance] }));
+        }
+    }
+
+    #[test]
+    fn every_axis_is_a_filter_of_its_own_twin_or_not() {
+        let root = [[2.0, 0.0, 0.0, 0.0], [0.0, 3.0, 0.0, 0.0], [2.0, 0.0, 0.0, 0.0], [0.0, 3.0, 0.0, 0.0]];
+        let begin = |y: f64| AxisFilter::new(2, [y, 0.0], [y, 0.0], root);
+        let mut axes = AxisFilters::new(3, [begin(0.0), begin(10.0), begin(-5.0)], &[true; AXES]);
+        let covariance = dmatrix![4.0, 0.0; 0.0, 9.0];
+        let mut dense = [0.0, 10.0, -5.0]
+            .map(|y| Filter::new(&Gaussian { mean: dvector![y, 0.0], covariance: covariance.clone() }, 1));
+        // the third axis is missing once, then the second has another variance
+        let observed = [
+            ([Some(1.0), Some(12.0), Some(-4.0)], [0.5; 3], [true; 3]),
+            ([Some(2.0), Some(13.0), None], [0.5; 3], [true, true, false]),
+            ([Some(2.5), Some(13.0), Some(-2.0)], [0.5, 0.7, 0.5], [true, false, false]),
+            ([None, None, Some(0.0)], [0.5; 3], [true, false, false]),
+        ];
+        for (position, variance, twins) in observed {
+            let mut squares = 0.0;
+            axes.advance(|_| Some(Second), &position, &variance, |error, variance| squares += error * error / variance);
+            assert!(squares > 0.0);
+            for (axis, filter) in dense.iter_mut().enumerate() {
+                advance(filter, position[axis], variance[axis]);
+                assert_eq!(axes.is_twin(axis), twins[axis]);
+                let (found, expected, start) = (&axes[axis], filter.mean(0), filter.smoothed_start(0));
+                for i in 0..2 {
+                    assert!((found.now[i] - expected[i]).abs() < 1e-13);
+                    assert!((found.first[i] - start.mean[i]).abs() < 1e-13);
+                    for j in 0..2 {
+                        assert!((found.covariance[i][j] - filter.current_covariance()[(i, j)]).abs() < 1e-13);
+                    }
+                }
+            }
+        }
+    }
+}
