@@ -165,19 +165,19 @@ pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> O
     array.view_mut((0, m), (m, n)).copy_from(&(h * l));
     array.view_mut((m, m), (n, n)).copy_from(l);
     let array = triangularise(array);
-    let spread = array.view((0, 0), (m, m)).into_owned();
+    let innovation_root = array.view((0, 0), (m, m)).into_owned();
     // K from K S^1/2, the last column first
     let mut gain = array.view((m, 0), (n, m)).into_owned();
     for j in (0..m).rev() {
         for i in 0..n {
-            let others: f64 = (j + 1..m).map(|k| gain[(i, k)] * spread[(k, j)]).sum();
-            gain[(i, j)] = (gain[(i, j)] - others) / spread[(j, j)];
+            let others: f64 = (j + 1..m).map(|k| gain[(i, k)] * innovation_root[(k, j)]).sum();
+            gain[(i, j)] = (gain[(i, j)] - others) / innovation_root[(j, j)];
         }
     }
     Some(Conditioning {
         gain,
         root: array.view((m, m), (n, n)).into_owned(),
-        prediction_error: Factor::of_root(spread)?,
+        prediction_error: Factor::of_root(innovation_root)?,
     })
 }
 

@@ -54,7 +54,7 @@ pub(crate) fn triangularise<const ROWS: usize, const COLUMNS: usize>(
     }
 }
 
-/// Conditions the covariance `L L'` of `size` components on an observation of component `at` with this variance; gives the
+/// Conditions the covariance `L L'` of `size` components on an observation of component `at` with this variance: returns the
 /// gain and the prediction error's variance.
 ///
 /// A rotation for each column, from the component's own to the first, turns `[R^1/2, H L]` into `[S^1/2, 0]`; it turns the
@@ -66,22 +66,23 @@ pub(crate) fn condition<const SIZE: usize>(
     variance: f64,
 ) -> ([f64; SIZE], f64) {
     let mut deviation = variance.sqrt();
-    let mut leaning = [0.0; SIZE];
+    let mut gain = [0.0; SIZE];
     for q in (0..=at).rev() {
         let known = root[at][q];
         let total = (deviation * deviation + known * known).sqrt();
         let (cosine, sine) = (deviation / total, known / total);
         for p in q..size {
-            let (entry, lean) = (root[p][q], leaning[p]);
-            root[p][q] = cosine * entry - sine * lean;
-            leaning[p] = sine * entry + cosine * lean;
+            let (entry, scaled) = (root[p][q], gain[p]);
+            root[p][q] = cosine * entry - sine * scaled;
+            gain[p] = sine * entry + cosine * scaled;
         }
         deviation = total;
     }
-    for lean in &mut leaning {
-        *lean /= deviation;
+    // so far it was K S^1/2
+    for entry in &mut gain {
+        *entry /= deviation;
     }
-    (leaning, deviation * deviation)
+    (gain, deviation * deviation)
 }
 
 /// A root of a positive semi-definite matrix over `s` components, lower triangular.

@@ -12,7 +12,7 @@ use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
 use super::from_start::FromStart;
 use super::targets::{Class, Targets};
-use crate::math::kernel::mixture::{Density, Places, SharedDensity, weigh_in};
+use crate::math::kernel::mixture::{Density, Places, SharedDensity, weighted_sums_in};
 use crate::math::kernel::vectors::{Block, Lanes, raise};
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
@@ -69,11 +69,11 @@ impl Work {
             match &class.covariance {
                 Some(covariance) => {
                     now.nodes.shared_densities(covariance, shared);
-                    weigh_in(d, shared, &places, 0.0, over_start, weights);
+                    weighted_sums_in(d, shared, &places, 0.0, over_start, weights);
                 }
                 None => {
                     now.nodes.densities(densities);
-                    weigh_in(d, densities, &places, 0.0, over_start, weights);
+                    weighted_sums_in(d, densities, &places, 0.0, over_start, weights);
                 }
             }
             let (best, worst) = exponents(class, &places, now, weights);

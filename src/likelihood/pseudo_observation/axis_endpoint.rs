@@ -1,4 +1,4 @@
-//! The endpoint of one axis as its filter sees it, at each arrival node: one scalar Gaussian.
+//! The endpoint of one axis given its filter, at each arrival node: one scalar Gaussian.
 //!
 //! Where the endpoint names more than the position (a velocity, an acceleration on arrival), the density of those is taken
 //! first and the position is conditioned on them, so what is left is a scalar Gaussian of the position still. Four arrival
@@ -11,7 +11,7 @@ use crate::model::motion::MotionModel;
 
 /// What the endpoint of one axis is, apart from the position's mean and variance, which each destination has of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisEnd {
+pub struct AxisEndpoint {
     /// How many components the endpoint names, from the position on; at least one.
     pub length: usize,
     /// Their means; that of the position is not read.
@@ -77,7 +77,7 @@ impl NodeTable {
 
 /// A scalar Gaussian of the endpoint's position for four nodes, and the density of the rest of the endpoint.
 #[derive(Clone, Copy, Debug)]
-pub struct Ends {
+pub struct AxisPosition {
     /// The position's mean.
     pub mean: Lanes,
     /// Its variance, without the destination's own.
@@ -88,10 +88,10 @@ pub struct Ends {
     pub exponent: Lanes,
 }
 
-/// What the ends of one block of nodes have in common for all axes that are alike: the covariance, eliminated from its last
+/// What the endpoints of one block of nodes have in common for all axes that are alike: the covariance, eliminated from its last
 /// component to the second.
 #[derive(Clone, Copy, Debug)]
-pub struct Spread {
+pub struct EndpointCovariance {
     /// The rows below the diagonal, one after the other.
     gain: [Lanes; MOST * (MOST - 1) / 2],
     inverse: [Lanes; MOST],
@@ -99,7 +99,7 @@ pub struct Spread {
     density: Lanes,
 }
 
-impl Spread {
+impl EndpointCovariance {
     /// One to be filled.
     pub fn empty() -> Self {
         let zero = Lanes::splat(0.0);
@@ -108,9 +108,9 @@ impl Spread {
 
     /// For block `b` of a table, the covariance now and the endpoint.
     #[inline(never)]
-    pub fn see(&mut self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) {
+    pub fn fill(&mut self, table: &NodeTable, b: usize, filter: &AxisFilter, endpoint: &AxisEndpoint) {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
-        let (s, length) = (table.states, end.length);
+        let (s, length) = (table.states, endpoint.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
         let mut variance = Lanes::load(&rows[s + 1]);
         for m in 0..s {
@@ -129,7 +129,7 @@ impl Spread {
         for i in 1..length {
             places[i] = place;
             for j in 0..i + 1 {
-                covariance[i][j] = Lanes::load(&rows[place + s + 1 + j]) + Lanes::splat(end.covariance[i][j]);
+                covariance[i][j] = Lanes::load(&rows[place + s + 1 + j]) + Lanes::splat(endpoint.covariance[i][j]);
             }
             for m in 0..s {
                 let product = plus(zero, &rows[place..], &filter.covariance[m], s);
@@ -154,15 +154,15 @@ impl Spread {
         self.variance = covariance[0][0];
     }
 
-    /// The ends of an axis with this spread.
+    /// The endpoint's position in an axis with this covariance.
     #[inline(never)]
-    pub fn ends(&self, table: &NodeTable, b: usize, filter: &AxisFilter, end: &AxisEnd) -> Ends {
-        let (s, length) = (table.states, end.length);
+    pub fn position(&self, table: &NodeTable, b: usize, filter: &AxisFilter, endpoint: &AxisEndpoint) -> AxisPosition {
+        let (s, length) = (table.states, endpoint.length);
         let rows = &table.blocks[b * NodeTable::stride(s, table.length)..];
         let first = plus(Lanes::load(&rows[s]), rows, &filter.now, s);
         let mut exponent = Lanes::splat(0.0);
         if length == 1 {
-            return Ends { mean: first, variance: self.variance, density: self.density, exponent };
+            return AxisPosition { mean: first, variance: self.variance, density: self.density, exponent };
         }
         let mut mean = [first; MOST];
         let mut place = s + 2;
@@ -171,13 +171,13 @@ impl Spread {
             place += s + 2 + i;
         }
         for r in (1..length).rev() {
-            let error = Lanes::splat(end.mean[r]) - mean[r];
+            let error = Lanes::splat(endpoint.mean[r]) - mean[r];
             exponent = exponent - Lanes::splat(HALF_LOG2_E) * (error * error * self.inverse[r]);
             for i in 0..r {
                 mean[i] = mean[i] + self.gain[r * (r - 1) / 2 + i] * error;
             }
         }
-        Ends { mean: mean[0], variance: self.variance, density: self.density, exponent }
+        AxisPosition { mean: mean[0], variance: self.variance, density: self.density, exponent }
     }
 }
 

@@ -1,8 +1,8 @@
 //! The filters under one noise candidate, and its terms for a class of endpoints.
 
-use super::axis_endpoint::{AxisEnd, NodeTable};
-use super::classes::{End, Nodes};
-use super::coefficients::{Sight, Work};
+use super::axis_endpoint::{AxisEndpoint, NodeTable};
+use super::classes::{ClassEndpoint, Nodes};
+use super::coefficients::{Prediction, Work};
 use super::conversion::coupled_of;
 use super::coupled::{self, Coupled};
 use super::separable::{Axes, MOST};
@@ -75,7 +75,7 @@ impl Candidate {
         &mut self,
         number: usize,
         nodes: &Nodes,
-        end: &End,
+        endpoint: &ClassEndpoint,
         elapsed: f64,
         weights: &[Block],
         lead: f64,
@@ -87,7 +87,7 @@ impl Candidate {
         let passed = if nodes.from_now { 0.0 } else { elapsed };
         match &self.source {
             Source::Separable { first, now } => {
-                let Some(axes) = &end.axes else { return };
+                let Some(axes) = &endpoint.axes else { return };
                 to_now.fill_axes(model, now, number, axes, nodes, passed);
                 let mut predicted;
                 let (start, start_tables) = if nodes.from_now {
@@ -98,9 +98,9 @@ impl Candidate {
                     to_start.fill_axes(model, first, number, axes, nodes, 0.0);
                     (first, &to_start.axes)
                 };
-                let sight =
-                    Sight { now, start, tables: &to_now.axes, start_tables, weights, weight: self.weight, lead };
-                work.see(&sight, axes);
+                let prediction =
+                    Prediction { now, start, tables: &to_now.axes, start_tables, weights, weight: self.weight, lead };
+                work.add_endpoints(&prediction, axes);
             }
             Source::Coupled(coupled) => {
                 to_now.fill_complete(model, number, nodes, passed);
@@ -117,7 +117,7 @@ impl Candidate {
                     let factor = self.weight * weight;
                     let d = model.dimensions();
                     let term =
-                        coupled::ellipsoid((&now, step), (&start, start_step), end, (factor, lead), d, &mut room);
+                        coupled::ellipsoid((&now, step), (&start, start_step), endpoint, (factor, lead), d, &mut room);
                     work.ellipsoids.extend(term);
                 }
             }
@@ -136,11 +136,11 @@ impl StepsTo {
         model: &dyn MotionModel,
         axes: &Axes,
         number: usize,
-        ends: &[AxisEnd; MOST],
+        endpoints: &[AxisEndpoint; MOST],
         nodes: &Nodes,
         passed: f64,
     ) {
-        let length = ends.iter().map(|end| end.length).max().unwrap_or(1);
+        let length = endpoints.iter().map(|endpoint| endpoint.length).max().unwrap_or(1);
         if self.is(number, passed) && self.axes[0].length() >= length {
             return;
         }

@@ -1,7 +1,7 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
-use super::axis_endpoint::AxisEnd;
-use super::pruning::{Leaf, MANY, arrange, leaves};
+use super::axis_endpoint::AxisEndpoint;
+use super::pruning::{BoundingBox, MANY, arrange, bounding_boxes};
 use super::separable::MOST;
 use super::telescoped::IN_RANGE;
 use crate::likelihood::plan::Plan;
@@ -48,32 +48,32 @@ impl Nodes {
 
 /// The endpoint of a class, apart from the position's mean.
 #[derive(Clone, Debug, PartialEq)]
-pub struct End {
+pub struct ClassEndpoint {
     /// The means of the components after the position.
     pub rest: Vec<f64>,
     /// The covariance `S_i`; where axes are separate without the position's own variances, which each class, or each
     /// destination, adds.
     pub covariance: DMatrix<f64>,
     /// The same for each axis, where axes are separate.
-    pub axes: Option<[AxisEnd; MOST]>,
+    pub axes: Option<[AxisEndpoint; MOST]>,
 }
 
-impl End {
+impl ClassEndpoint {
     fn new(rest: &[f64], covariance: &DMatrix<f64>, d: usize, separable: bool) -> Self {
         if !separable {
             return Self { rest: rest.to_vec(), covariance: covariance.clone(), axes: None };
         }
         let length = d + rest.len();
-        let mut axes = [AxisEnd::default(); MOST];
-        for (axis, end) in axes.iter_mut().enumerate().take(d) {
+        let mut axes = [AxisEndpoint::default(); MOST];
+        for (axis, endpoint) in axes.iter_mut().enumerate().take(d) {
             for i in (axis..length).step_by(d) {
-                end.length += 1;
+                endpoint.length += 1;
                 if i >= d {
-                    end.mean[i / d] = rest[i - d];
+                    endpoint.mean[i / d] = rest[i - d];
                 }
                 for j in (axis..length).step_by(d) {
                     if i >= d || j >= d {
-                        end.covariance[i / d][j / d] = covariance[(i, j)];
+                        endpoint.covariance[i / d][j / d] = covariance[(i, j)];
                     }
                 }
             }
@@ -94,19 +94,19 @@ impl End {
     }
 }
 
-/// Destinations that stand together in the arrays.
+/// Destinations that follow one another in the arrays.
 #[derive(Clone, Debug)]
 pub struct Class {
     /// Which nodes.
     pub nodes: usize,
     /// Which endpoint.
-    pub end: usize,
+    pub endpoint: usize,
     /// The position's variances in each axis where all have the same; none where each has its own.
     pub size: Option<[f64; MOST]>,
     /// Where they are.
     pub blocks: Range<usize>,
     /// The same in parts that lie together, where they are many.
-    pub leaves: Vec<Leaf>,
+    pub boxes: Vec<BoundingBox>,
 }
 
 /// All destinations.
@@ -119,14 +119,14 @@ pub struct Classes {
     /// The arrival nodes.
     pub nodes: Vec<Nodes>,
     /// The endpoints.
-    pub ends: Vec<End>,
+    pub endpoints: Vec<ClassEndpoint>,
     /// The classes; those that share nodes and endpoint follow one another.
     pub classes: Vec<Class>,
-    /// Prior weights; empty where those that the destinations have can be read as they stand.
+    /// Prior weights; empty where those that the destinations have can be read unchanged.
     priors: Vec<Block>,
     /// What the prior weights sum to.
     pub total: f64,
-    /// Where they stand.
+    /// Their places in the arrays.
     pub layout: Layout,
 }
 
@@ -154,13 +154,13 @@ impl Classes {
             dimensions: d,
             separable: separable && !destinations.kinds().iter().any(|kind| mixes(&kind.covariance())),
             nodes: nodes.collect(),
-            ends: Vec::new(),
+            endpoints: Vec::new(),
             classes: Vec::new(),
             priors: Vec::new(),
             total: destinations.priors().iter().sum(),
             layout: Layout::default(),
         };
-        for ((nodes, end), drafts) in classes.drafts(destinations, plan) {
+        for ((nodes, endpoint), drafts) in classes.drafts(destinations, plan) {
             let many = classes.separable && drafts.len() > 1;
             let mut pool = Vec::new();
             for mut draft in drafts {
@@ -170,10 +170,10 @@ impl Classes {
                     if classes.separable && draft.members.len() >= MANY {
                         arrange(destinations, &mut draft.members);
                     }
-                    classes.place(&draft.members, (nodes, end, Some(draft.size)));
+                    classes.place(&draft.members, (nodes, endpoint, Some(draft.size)));
                 }
             }
-            classes.place(&pool, (nodes, end, None));
+            classes.place(&pool, (nodes, endpoint, None));
         }
         classes.layout.finish(destinations.len(), destinations.coordinates(), &|i, axis| {
             destinations.kind(i).variance(axis, axis)
@@ -183,7 +183,7 @@ impl Classes {
             let mut all = std::mem::take(&mut classes.classes);
             for class in all.iter_mut().filter(|class| class.size.is_some()) {
                 let places = classes.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]);
-                class.leaves = leaves(&places, &class.blocks, classes.priors_in(destinations, &class.blocks));
+                class.boxes = bounding_boxes(&places, &class.blocks, classes.priors_in(destinations, &class.blocks));
             }
             classes.classes = all;
         }
@@ -213,7 +213,7 @@ impl Classes {
 
     /// By nodes and endpoint, those of one size together.
     fn drafts(&mut self, destinations: &Destinations, plan: &Plan) -> Vec<((usize, usize), Vec<Draft>)> {
-        let (mut known_ends, mut known) = (HashMap::new(), HashMap::new());
+        let (mut known_endpoints, mut known) = (HashMap::new(), HashMap::new());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
             let covariance = &destinations.kinds()[group.kind].covariance();
@@ -224,20 +224,20 @@ impl Classes {
                 let key: Vec<u64> = rest.iter().map(|x| x.to_bits()).collect();
                 let draft = *here.entry(key).or_insert(members.len());
                 if draft == members.len() {
-                    let end = End::new(&rest, covariance, self.dimensions, self.separable);
-                    let number = *known_ends.entry(end.key()).or_insert(self.ends.len());
-                    if number == self.ends.len() {
-                        self.ends.push(end);
+                    let endpoint = ClassEndpoint::new(&rest, covariance, self.dimensions, self.separable);
+                    let number = *known_endpoints.entry(endpoint.key()).or_insert(self.endpoints.len());
+                    if number == self.endpoints.len() {
+                        self.endpoints.push(endpoint);
                     }
                     let size = std::array::from_fn(|k| if k < self.dimensions { covariance[(k, k)] } else { 0.0 });
                     members.push((number, Draft { size, members: Vec::new() }));
                 }
                 members[draft].1.members.push(i);
             }
-            for (end, draft) in members {
-                let place = *known.entry((group.grid, end)).or_insert(all.len());
+            for (endpoint, draft) in members {
+                let place = *known.entry((group.grid, endpoint)).or_insert(all.len());
                 if place == all.len() {
-                    all.push(((group.grid, end), Vec::new()));
+                    all.push(((group.grid, endpoint), Vec::new()));
                 }
                 all[place].1.push(draft);
             }
@@ -245,10 +245,10 @@ impl Classes {
         all
     }
 
-    fn place(&mut self, members: &[u32], (nodes, end, size): (usize, usize, Option<[f64; MOST]>)) {
+    fn place(&mut self, members: &[u32], (nodes, endpoint, size): (usize, usize, Option<[f64; MOST]>)) {
         let blocks = self.layout.place(members, size.is_none());
         if !members.is_empty() {
-            self.classes.push(Class { nodes, end, size, blocks, leaves: Vec::new() });
+            self.classes.push(Class { nodes, endpoint, size, blocks, boxes: Vec::new() });
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The coefficients: from the endpoint seen from now and from the start to the terms of [`crate::math::kernel::mixture`].
+//! The coefficients: from the endpoint predicted from now and from the start to the terms of [`crate::math::kernel::mixture`].
 //!
 //! With `d = a - m`, `v = V + S`, `u = U + S` for one axis,
 //!
@@ -8,11 +8,11 @@
 //!
 //! and the factor `sqrt(u / v)` stays a factor, so no logarithm is taken.
 
-use super::axis_endpoint::{AxisEnd, NodeTable, Spread};
+use super::axis_endpoint::{AxisEndpoint, EndpointCovariance, NodeTable};
 use super::classes::{Class, Classes};
 use super::pruning::Bounds;
 use super::separable::{Axes, MOST};
-use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weigh_in};
+use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weighted_sums_in};
 use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
 use crate::model::destination::Destinations;
 use std::ops::Range;
@@ -21,9 +21,9 @@ use std::ops::Range;
 /// too much, and the [`Ellipsoid`] is taken.
 const MOST_BITS: f64 = 256.0;
 
-/// The endpoint's position for four nodes, seen from now and from the start, without its own variance.
+/// The endpoint's position for four nodes, predicted from now and from the start, without its own variance.
 #[derive(Clone, Copy, Debug)]
-struct EndBlock {
+struct EndpointBlock {
     mean: [Block; AXES],
     variance: [Block; AXES],
     start_mean: [Block; AXES],
@@ -36,7 +36,7 @@ struct EndBlock {
 
 const ZERO: Block = [0.0; WIDTH];
 
-const EMPTY: EndBlock = EndBlock {
+const EMPTY: EndpointBlock = EndpointBlock {
     mean: [ZERO; AXES],
     variance: [ZERO; AXES],
     start_mean: [ZERO; AXES],
@@ -54,8 +54,8 @@ fn at(blocks: &[Block; AXES], lane: usize) -> [f64; AXES] {
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    ends: Vec<EndBlock>,
-    /// Whether the axes of all ends have one variance.
+    endpoints: Vec<EndpointBlock>,
+    /// Whether the axes of all endpoints have one variance.
     round: bool,
     /// Coupled sources put their terms here.
     pub ellipsoids: Vec<Ellipsoid>,
@@ -66,10 +66,10 @@ pub struct Work {
 
 /// What a separable source gives for one noise candidate.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<'a> {
+pub struct Prediction<'a> {
     /// The filters now.
     pub now: &'a Axes,
-    /// What the start says of the state at `start_tables`' origin.
+    /// The prediction from the start of the state at `start_tables`' origin.
     pub start: &'a Axes,
     /// Transitions to the nodes from now, for each axis.
     pub tables: &'a [NodeTable; MOST],
@@ -84,58 +84,58 @@ pub struct Sight<'a> {
 }
 
 impl Work {
-    /// Forgets the ends and terms of another class.
+    /// Removes the endpoints and terms of another class.
     pub fn clear(&mut self) {
-        self.ends.clear();
+        self.endpoints.clear();
         self.ellipsoids.clear();
         self.round = true;
     }
 
-    /// Adds the ends that one noise candidate sees.
+    /// Adds the endpoints of one noise candidate.
     #[inline(never)]
-    pub fn see(&mut self, sight: &Sight<'_>, axes: &[AxisEnd; MOST]) {
-        let (now, start) = (sight.now, sight.start);
+    pub fn add_endpoints(&mut self, prediction: &Prediction<'_>, axes: &[AxisEndpoint; MOST]) {
+        let (now, start) = (prediction.now, prediction.start);
         let mut alike = [true; MOST];
         for k in 1..now.filters.dimensions() {
             alike[k] = now.filters.is_twin(k) && start.filters.is_twin(k) && axes[k].alike;
             self.round &= alike[k];
         }
-        let [mut first, mut first_start, mut own, mut own_start] = [Spread::empty(); 4];
-        for (b, weights) in sight.weights.iter().enumerate() {
-            self.ends.push(EMPTY);
-            let Some(ends) = self.ends.last_mut() else { return };
-            let mut exponent = Lanes::splat(sight.lead);
+        let [mut first, mut first_start, mut own, mut own_start] = [EndpointCovariance::empty(); 4];
+        for (b, weights) in prediction.weights.iter().enumerate() {
+            self.endpoints.push(EMPTY);
+            let Some(endpoints) = self.endpoints.last_mut() else { return };
+            let mut exponent = Lanes::splat(prediction.lead);
             let mut density = Lanes::splat(1.0);
             let mut start_density = Lanes::splat(1.0);
             for axis in 0..now.filters.dimensions() {
                 let of = if now.alike[axis] { 0 } else { axis };
-                let (table, start_table) = (&sight.tables[of], &sight.start_tables[of]);
-                let (filter, start_filter, end) = (&now.filters[axis], &start.filters[axis], &axes[axis]);
-                let (spread, start_spread) =
+                let (table, start_table) = (&prediction.tables[of], &prediction.start_tables[of]);
+                let (filter, start_filter, endpoint) = (&now.filters[axis], &start.filters[axis], &axes[axis]);
+                let (covariance, start_covariance) =
                     if alike[axis] { (&mut first, &mut first_start) } else { (&mut own, &mut own_start) };
                 if axis == 0 || !alike[axis] {
-                    spread.see(table, b, filter, end);
-                    start_spread.see(start_table, b, start_filter, end);
+                    covariance.fill(table, b, filter, endpoint);
+                    start_covariance.fill(start_table, b, start_filter, endpoint);
                 }
-                let there = spread.ends(table, b, filter, end);
-                let from_start = start_spread.ends(start_table, b, start_filter, end);
-                there.mean.store(&mut ends.mean[axis]);
-                there.variance.store(&mut ends.variance[axis]);
-                from_start.mean.store(&mut ends.start_mean[axis]);
-                from_start.variance.store(&mut ends.start_variance[axis]);
+                let there = covariance.position(table, b, filter, endpoint);
+                let from_start = start_covariance.position(start_table, b, start_filter, endpoint);
+                there.mean.store(&mut endpoints.mean[axis]);
+                there.variance.store(&mut endpoints.variance[axis]);
+                from_start.mean.store(&mut endpoints.start_mean[axis]);
+                from_start.variance.store(&mut endpoints.start_variance[axis]);
                 exponent = exponent + (there.exponent - from_start.exponent);
                 density = density * there.density;
                 start_density = start_density * from_start.density;
             }
-            (Lanes::splat(sight.weight) * Lanes::load(weights) * (density / start_density).sqrt())
-                .store(&mut ends.factor);
-            exponent.store(&mut ends.constant);
+            (Lanes::splat(prediction.weight) * Lanes::load(weights) * (density / start_density).sqrt())
+                .store(&mut endpoints.factor);
+            exponent.store(&mut endpoints.constant);
         }
     }
 
     /// Writes the weights of a class, `prior_i sum_n f_n 2^(e_n - shift)`, and returns their sum.
     #[inline(never)]
-    pub fn weigh(
+    pub fn weighted_sums(
         &mut self,
         destinations: &Destinations,
         classes: &Classes,
@@ -152,12 +152,12 @@ impl Work {
             Some(_) => {}
         }
         let Self { owns, balls, ellipsoids, bounds, .. } = self;
-        let leaves = &class.leaves;
-        if !leaves.is_empty() {
+        let boxes = &class.boxes;
+        if !boxes.is_empty() {
             if round {
-                bounds.see_balls(balls, origin);
+                bounds.set_balls(balls, origin);
             } else {
-                bounds.see_ellipsoids(ellipsoids);
+                bounds.set_ellipsoids(ellipsoids);
             }
             weights[class.blocks.clone()].fill(ZERO);
         }
@@ -165,12 +165,12 @@ impl Work {
             let places = classes.layout.places(destinations.coordinates(), blocks, origin);
             let (priors, weights) = (classes.priors_in(destinations, blocks), &mut weights[blocks.clone()]);
             match class.size {
-                None => weigh_in(d, owns, &places, shift, priors, weights),
-                Some(_) if round => weigh_in(d, balls, &places, shift, priors, weights),
-                Some(_) => weigh_in(d, ellipsoids, &places, shift, priors, weights),
+                None => weighted_sums_in(d, owns, &places, shift, priors, weights),
+                Some(_) if round => weighted_sums_in(d, balls, &places, shift, priors, weights),
+                Some(_) => weighted_sums_in(d, ellipsoids, &places, shift, priors, weights),
             }
         };
-        if leaves.is_empty() { part(&class.blocks) } else { bounds.sum(leaves, d, shift, part) }
+        if boxes.is_empty() { part(&class.blocks) } else { bounds.sum(boxes, d, shift, part) }
     }
 
     /// Writes `log2` of the sums of a class, whatever their size.
@@ -192,16 +192,16 @@ impl Work {
 
     fn owns(&mut self) {
         self.owns.clear();
-        for ends in &self.ends {
+        for endpoints in &self.endpoints {
             for lane in 0..WIDTH {
-                if ends.factor[lane] > 0.0 {
+                if endpoints.factor[lane] > 0.0 {
                     self.owns.push(Own {
-                        mean: at(&ends.mean, lane),
-                        variance: at(&ends.variance, lane),
-                        start_mean: at(&ends.start_mean, lane),
-                        start_variance: at(&ends.start_variance, lane),
-                        constant: ends.constant[lane],
-                        factor: ends.factor[lane],
+                        mean: at(&endpoints.mean, lane),
+                        variance: at(&endpoints.variance, lane),
+                        start_mean: at(&endpoints.start_mean, lane),
+                        start_variance: at(&endpoints.start_variance, lane),
+                        constant: endpoints.constant[lane],
+                        factor: endpoints.factor[lane],
                     });
                 }
             }
@@ -211,19 +211,19 @@ impl Work {
     /// The terms as balls; false where they would cancel or are none.
     fn balls(&mut self, dimensions: usize, size: &[f64; MOST], origin: &[f64; AXES]) -> bool {
         self.balls.clear();
-        if self.ends.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
+        if self.endpoints.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
             return false;
         }
         let half = Lanes::splat(HALF_LOG2_E);
-        for ends in &self.ends {
-            let v = Lanes::load(&ends.variance[0]) + Lanes::splat(size[0]);
-            let u = Lanes::load(&ends.start_variance[0]) + Lanes::splat(size[0]);
+        for endpoints in &self.endpoints {
+            let v = Lanes::load(&endpoints.variance[0]) + Lanes::splat(size[0]);
+            let u = Lanes::load(&endpoints.start_variance[0]) + Lanes::splat(size[0]);
             let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
             let mut slope = [ZERO; AXES];
             let (mut squares, mut start_squares) = (Lanes::splat(0.0), Lanes::splat(0.0));
             for axis in 0..dimensions {
-                let p = Lanes::load(&ends.mean[axis]) - Lanes::splat(origin[axis]);
-                let g = Lanes::load(&ends.start_mean[axis]) - Lanes::splat(origin[axis]);
+                let p = Lanes::load(&endpoints.mean[axis]) - Lanes::splat(origin[axis]);
+                let g = Lanes::load(&endpoints.start_mean[axis]) - Lanes::splat(origin[axis]);
                 let (from_p, from_g) = (p * over_v, g * over_u);
                 ((half + half) * (from_p - from_g)).store(&mut slope[axis]);
                 squares = squares + p * from_p;
@@ -237,11 +237,11 @@ impl Work {
             };
             let [mut curvature, mut constant, mut factors, mut bits] = [ZERO; 4];
             (half * (v - u) * over_v * over_u).store(&mut curvature);
-            (Lanes::load(&ends.constant) + half * (start_squares - squares)).store(&mut constant);
-            (Lanes::load(&ends.factor) * factor).store(&mut factors);
+            (Lanes::load(&endpoints.constant) + half * (start_squares - squares)).store(&mut constant);
+            (Lanes::load(&endpoints.factor) * factor).store(&mut factors);
             (half * squares.at_least(start_squares)).store(&mut bits);
             for lane in 0..WIDTH {
-                if ends.factor[lane] > 0.0 {
+                if endpoints.factor[lane] > 0.0 {
                     if bits[lane] > MOST_BITS {
                         return false;
                     }
@@ -259,20 +259,20 @@ impl Work {
 
     /// The terms as ellipsoids; those of a coupled source are there already.
     fn ellipsoids(&mut self, dimensions: usize, size: &[f64; MOST]) {
-        if self.ends.is_empty() {
+        if self.endpoints.is_empty() {
             return;
         }
         self.ellipsoids.clear();
         let half = Lanes::splat(HALF_LOG2_E);
-        for ends in &self.ends {
+        for endpoints in &self.endpoints {
             let [mut slope, mut curvature] = [[ZERO; AXES]; 2];
             let mut ratio = Lanes::splat(1.0);
-            let mut constant = Lanes::load(&ends.constant);
+            let mut constant = Lanes::load(&endpoints.constant);
             for axis in 0..dimensions {
-                let v = Lanes::load(&ends.variance[axis]) + Lanes::splat(size[axis]);
-                let u = Lanes::load(&ends.start_variance[axis]) + Lanes::splat(size[axis]);
+                let v = Lanes::load(&endpoints.variance[axis]) + Lanes::splat(size[axis]);
+                let u = Lanes::load(&endpoints.start_variance[axis]) + Lanes::splat(size[axis]);
                 let (over_v, over_u) = (Lanes::splat(1.0) / v, Lanes::splat(1.0) / u);
-                let apart = Lanes::load(&ends.mean[axis]) - Lanes::load(&ends.start_mean[axis]);
+                let apart = Lanes::load(&endpoints.mean[axis]) - Lanes::load(&endpoints.start_mean[axis]);
                 let lean = half * apart * over_u;
                 (lean + lean).store(&mut slope[axis]);
                 (half * (v - u) * over_v * over_u).store(&mut curvature[axis]);
@@ -281,12 +281,12 @@ impl Work {
             }
             let [mut constants, mut factors] = [ZERO; 2];
             constant.store(&mut constants);
-            (Lanes::load(&ends.factor) * ratio.sqrt()).store(&mut factors);
+            (Lanes::load(&endpoints.factor) * ratio.sqrt()).store(&mut factors);
             for lane in 0..WIDTH {
-                if ends.factor[lane] > 0.0 {
+                if endpoints.factor[lane] > 0.0 {
                     let [xx, yy, zz] = at(&curvature, lane);
                     self.ellipsoids.push(Ellipsoid {
-                        center: at(&ends.mean, lane),
+                        center: at(&endpoints.mean, lane),
                         curvature: [[xx, 0.0, 0.0], [0.0, yy, 0.0], [0.0, 0.0, zz]],
                         slope: at(&slope, lane),
                         constant: constants[lane],

@@ -1,7 +1,7 @@
 //! Models, observations or endpoints that mix axes: one filter over the complete state, and the endpoint's position as one
 //! Gaussian with correlations. What the endpoint names beyond the position is conditioned on, as in [`super::separable`].
 
-use super::classes::End;
+use super::classes::ClassEndpoint;
 use crate::math::gaussian::{Gaussian, propagate};
 use crate::math::kalman::Filter;
 use crate::math::kernel::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
@@ -55,15 +55,15 @@ impl EndpointPosition {
     /// From a state, `step` before the endpoint.
     // over slices: at the level for size each index of a matrix, and each step of an iterator, would be a call
     #[inline(never)]
-    fn new(from: &Gaussian, step: &Transition, end: &End, d: usize, room: &mut Room) -> Self {
-        let (s, length) = (from.mean.len(), end.covariance.nrows());
+    fn new(from: &Gaussian, step: &Transition, endpoint: &ClassEndpoint, d: usize, room: &mut Room) -> Self {
+        let (s, length) = (from.mean.len(), endpoint.covariance.nrows());
         let (transition, offset, noise) = (step.transition.as_slice(), step.offset.as_slice(), step.noise.as_slice());
         let (start, before) = (from.mean.as_slice(), from.covariance.as_slice());
         let Room { mean, product, covariance } = room;
         mean.clear();
         product.resize(s, 0.0);
         covariance.clear();
-        covariance.extend_from_slice(end.covariance.as_slice());
+        covariance.extend_from_slice(endpoint.covariance.as_slice());
         for i in 0..length {
             let mut sum = offset[i];
             for m in 0..s {
@@ -86,7 +86,7 @@ impl EndpointPosition {
         let (mut density, mut exponent) = (1.0, 0.0);
         for r in (d..length).rev() {
             let inverse = 1.0 / covariance[r + r * length];
-            let error = end.rest[r - d] - mean[r];
+            let error = endpoint.rest[r - d] - mean[r];
             density *= inverse;
             exponent -= HALF_LOG2_E * (error * error * inverse);
             for i in 0..r {
@@ -114,13 +114,13 @@ impl EndpointPosition {
 pub fn ellipsoid(
     now: (&Gaussian, &Transition),
     start: (&Gaussian, &Transition),
-    end: &End,
+    endpoint: &ClassEndpoint,
     (factor, lead): (f64, f64),
     d: usize,
     room: &mut Room,
 ) -> Option<Ellipsoid> {
-    let here = EndpointPosition::new(now.0, now.1, end, d, room);
-    let there = EndpointPosition::new(start.0, start.1, end, d, room);
+    let here = EndpointPosition::new(now.0, now.1, endpoint, d, room);
+    let there = EndpointPosition::new(start.0, start.1, endpoint, d, room);
     let (precision, determinant) = eliminate(here.covariance, d)?;
     let (start_precision, start_determinant) = eliminate(there.covariance, d)?;
     let mut term = Ellipsoid {

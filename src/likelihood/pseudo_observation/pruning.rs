@@ -1,19 +1,19 @@
 //! Many destinations, spread over a map: what lies where nothing can add anything is left out.
 //!
-//! Destinations that lie together stand together, 64 in a leaf with a box around it. On a box each quadratic of the sum has
-//! its largest value where its slope vanishes or at an edge, axis by axis, which bounds the weights of the whole leaf. A leaf
-//! whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left out is less than
-//! 1e-14 of the whole.
+//! Destinations that lie together follow one another in the arrays, 64 in a part with a bounding box. On a box each quadratic of
+//! the sum has its largest value where its slope vanishes or at an edge, axis by axis, which bounds the sum of the part's
+//! weights. A part whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left
+//! out is less than 1e-14 of the sum.
 
 use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, Places};
 use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use std::ops::Range;
 
-/// Fewer destinations than this are sooner evaluated than told apart.
+/// Fewer destinations than this are sooner evaluated than sorted.
 pub const MANY: usize = 4096;
 
-/// How many blocks a leaf has.
+/// How many blocks a bounding box has.
 const BLOCKS: usize = 16;
 
 /// All that is left out together lies this many powers of two below the sum.
@@ -21,7 +21,7 @@ const NOTHING: f64 = 47.0;
 
 /// Destinations that lie together.
 #[derive(Clone, Debug)]
-pub struct Leaf {
+pub struct BoundingBox {
     blocks: Range<usize>,
     /// The least and the largest coordinate in each axis.
     edges: [(f64, f64); AXES],
@@ -33,7 +33,7 @@ fn edges(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
-/// The order in which many destinations stand: along a curve that fills the space, the bits of their coordinates in turns.
+/// The order of many destinations: along a curve that fills the space, the bits of their coordinates in turns.
 pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
     let mut places: Vec<(u64, u32)> = members.iter().map(|&i| (0, i)).collect();
@@ -50,23 +50,24 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     members.iter_mut().zip(places).for_each(|(member, (_, i))| *member = i);
 }
 
-/// The leaves of destinations that stand in these blocks, with their places and prior weights; none where they are few.
-pub fn leaves(places: &Places<'_>, all: &Range<usize>, priors: &[Block]) -> Vec<Leaf> {
-    let leaf = |start: usize| {
+/// The bounding boxes of destinations in these blocks, with their places and prior weights; none where they are few.
+pub fn bounding_boxes(places: &Places<'_>, all: &Range<usize>, priors: &[Block]) -> Vec<BoundingBox> {
+    let bounding_box = |start: usize| {
         let blocks = start..all.len().min(start + BLOCKS);
         let log_prior = priors[blocks.clone()].as_flattened().iter().sum::<f64>().log2();
         let part = places.coordinates.map(|list| list.get(blocks.clone()).unwrap_or_default().as_flattened());
         let edges = part.map(|numbers| edges(numbers.iter().copied()));
-        Leaf { blocks: all.start + blocks.start..all.start + blocks.end, edges, log_prior }
+        BoundingBox { blocks: all.start + blocks.start..all.start + blocks.end, edges, log_prior }
     };
-    if all.len() * WIDTH < MANY { Vec::new() } else { (0..all.len()).step_by(BLOCKS).map(leaf).collect() }
+    if all.len() * WIDTH < MANY { Vec::new() } else { (0..all.len()).step_by(BLOCKS).map(bounding_box).collect() }
 }
 
-/// The largest exponent of a term in a leaf, where axes are not correlated; its factor does not count.
-fn most(term: &Ellipsoid, leaf: &Leaf, dimensions: usize) -> f64 {
+/// The largest exponent of a term in a bounding box, where axes are not correlated; its factor does not count.
+fn most(term: &Ellipsoid, bounding_box: &BoundingBox, dimensions: usize) -> f64 {
     let mut most = term.constant;
     for axis in 0..dimensions {
-        let (low, high) = (leaf.edges[axis].0 - term.center[axis], leaf.edges[axis].1 - term.center[axis]);
+        let (low, high) =
+            (bounding_box.edges[axis].0 - term.center[axis], bounding_box.edges[axis].1 - term.center[axis]);
         let (curvature, slope) = (term.curvature[axis][axis], term.slope[axis]);
         let top = -0.5 * slope / curvature;
         most += if curvature < 0.0 && low < top && top < high {
@@ -87,7 +88,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// The terms of the sum, about this origin.
-    pub fn see_balls(&mut self, balls: &[Ball], origin: [f64; AXES]) {
+    pub fn set_balls(&mut self, balls: &[Ball], origin: [f64; AXES]) {
         self.terms.clear();
         for ball in balls {
             let a = ball.curvature;
@@ -98,32 +99,38 @@ impl Bounds {
     }
 
     /// The terms of the sum.
-    pub fn see_ellipsoids(&mut self, ellipsoids: &[Ellipsoid]) {
+    pub fn set_ellipsoids(&mut self, ellipsoids: &[Ellipsoid]) {
         self.terms.clear();
-        let whole = |e: &Ellipsoid| Ellipsoid { constant: e.constant + e.factor.log2(), factor: 1.0, ..*e };
-        self.terms.extend(ellipsoids.iter().map(whole));
+        let scaled = |e: &Ellipsoid| Ellipsoid { constant: e.constant + e.factor.log2(), factor: 1.0, ..*e };
+        self.terms.extend(ellipsoids.iter().map(scaled));
     }
 
-    /// The sum over the leaves, of which `weigh` gives one; those that add nothing are left out.
-    pub fn sum(&mut self, leaves: &[Leaf], d: usize, shift: f64, mut weigh: impl FnMut(&Range<usize>) -> f64) -> f64 {
+    /// The sum over the boxes, of which `sum` gives one; those that add nothing are left out.
+    pub fn sum(
+        &mut self,
+        boxes: &[BoundingBox],
+        d: usize,
+        shift: f64,
+        mut sum: impl FnMut(&Range<usize>) -> f64,
+    ) -> f64 {
         self.each.clear();
         let mut best = (f64::NEG_INFINITY, 0..0);
-        for leaf in leaves {
+        for bounding_box in boxes {
             let mut bound = f64::NEG_INFINITY;
             for term in &self.terms {
-                bound = bound.max(most(term, leaf, d) + leaf.log_prior);
+                bound = bound.max(most(term, bounding_box, d) + bounding_box.log_prior);
             }
             self.each.push(bound);
             if bound > best.0 {
-                best = (bound, leaf.blocks.clone());
+                best = (bound, bounding_box.blocks.clone());
             }
         }
-        // the sum is at least what the best leaf gives; all the others may be as large as their bounds
-        let least = weigh(&best.1).log2() + shift - ((leaves.len() * self.terms.len()) as f64).log2() - NOTHING;
+        // the sum is at least what the best box gives; all the others may be as large as their bounds
+        let least = sum(&best.1).log2() + shift - ((boxes.len() * self.terms.len()) as f64).log2() - NOTHING;
         let mut total = 0.0;
-        for (leaf, bound) in leaves.iter().zip(&self.each) {
+        for (bounding_box, bound) in boxes.iter().zip(&self.each) {
             if !(*bound < least) {
-                total += weigh(&leaf.blocks);
+                total += sum(&bounding_box.blocks);
             }
         }
         total

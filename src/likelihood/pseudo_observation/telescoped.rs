@@ -317,11 +317,11 @@ impl Telescoped {
         let mut total = 0.0;
         let mut prepared = None;
         for class in &classes.classes {
-            if prepared != Some((class.nodes, class.end)) {
+            if prepared != Some((class.nodes, class.endpoint)) {
                 self.prepare(classes, class);
-                prepared = Some((class.nodes, class.end));
+                prepared = Some((class.nodes, class.endpoint));
             }
-            total += self.work.weigh(destinations, classes, class, origin, self.shift, weights);
+            total += self.work.weighted_sums(destinations, classes, class, origin, self.shift, weights);
         }
         total
     }
@@ -329,9 +329,9 @@ impl Telescoped {
     fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, logs: &mut [Block]) {
         let mut prepared = None;
         for class in &classes.classes {
-            if prepared != Some((class.nodes, class.end)) {
+            if prepared != Some((class.nodes, class.endpoint)) {
                 self.prepare(classes, class);
-                prepared = Some((class.nodes, class.end));
+                prepared = Some((class.nodes, class.endpoint));
             }
             self.work.log2_sums(destinations, classes, class, logs);
         }
@@ -339,14 +339,17 @@ impl Telescoped {
 
     /// Computes the terms of a class under every candidate.
     fn prepare(&mut self, classes: &Classes, class: &Class) {
-        let (Some(nodes), Some(end)) = (classes.nodes.get(class.nodes), classes.ends.get(class.end)) else { return };
+        let (Some(nodes), Some(endpoint)) = (classes.nodes.get(class.nodes), classes.endpoints.get(class.endpoint))
+        else {
+            return;
+        };
         let elapsed = self.elapsed;
         nodes.weights_ahead(elapsed, &mut self.node_weights);
         self.work.clear();
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         for candidate in &mut self.candidates {
             let lead = (candidate.log_evidence() - evidence) * std::f64::consts::LOG2_E;
-            candidate.prepare(class.nodes, nodes, end, elapsed, &self.node_weights, lead, &mut self.work);
+            candidate.prepare(class.nodes, nodes, endpoint, elapsed, &self.node_weights, lead, &mut self.work);
         }
     }
 }

@@ -8,7 +8,7 @@
 //! such a sum, for all destinations whose endpoints have one covariance ([`Ball`], [`Ellipsoid`]) or each its own ([`Own`]).
 //! Places lie in flat arrays of [`Block`]s, a list for each axis.
 //!
-//! The shift is a whole number that goes into the exponent's bits, so it changes no digit of any weight: whichever shift
+//! The shift is an integer that goes into the exponent's bits, so it changes no digit of any weight: whichever shift
 //! leads to a sum in range leads to the same probabilities, to the bit.
 
 mod density;
@@ -55,9 +55,9 @@ fn at(list: &[Block], i: usize) -> Option<Lanes> {
 }
 
 /// Writes `prior_i sum_n f_n 2^(e_n(i) - shift)` for every place, and returns their sum over all of them. Exponents are cut at
-/// 960 on either side of the shift, a whole number.
+/// 960 on either side of the shift, an integer.
 #[inline(never)]
-fn weigh<const D: usize, T: Term<D>>(
+fn weighted_sums<const D: usize, T: Term<D>>(
     terms: &[T],
     places: &Places<'_>,
     shift: f64,
@@ -83,9 +83,9 @@ fn weigh<const D: usize, T: Term<D>>(
                 None => break,
             }
         }
-        let weighed = sum * Lanes::load(prior);
-        weighed.store(weight);
-        total = total + weighed;
+        let weighted = sum * Lanes::load(prior);
+        weighted.store(weight);
+        total = total + weighted;
     }
     total.sum()
 }
@@ -136,8 +136,8 @@ fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
     }
 }
 
-/// [`weigh`] in so many dimensions.
-pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
+/// [`weighted_sums`] in so many dimensions.
+pub fn weighted_sums_in<T: Term<1> + Term<2> + Term<3>>(
     dimensions: usize,
     terms: &[T],
     places: &Places<'_>,
@@ -146,9 +146,9 @@ pub fn weigh_in<T: Term<1> + Term<2> + Term<3>>(
     weights: &mut [Block],
 ) -> f64 {
     match dimensions {
-        1 => weigh::<1, T>(terms, places, shift, priors, weights),
-        2 => weigh::<2, T>(terms, places, shift, priors, weights),
-        _ => weigh::<3, T>(terms, places, shift, priors, weights),
+        1 => weighted_sums::<1, T>(terms, places, shift, priors, weights),
+        2 => weighted_sums::<2, T>(terms, places, shift, priors, weights),
+        _ => weighted_sums::<3, T>(terms, places, shift, priors, weights),
     }
 }
 
@@ -253,12 +253,13 @@ mod tests {
             assert!((total / sum - 1.0).abs() < 1e-13, "{what}");
         };
         let mut weights = vec![[0.0; WIDTH]; 3];
-        let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
+        let total =
+            weighted_sums::<2, _>(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ball");
         let ellipsoids = RATIOS.each_ref().map(Ratio::ellipsoid);
-        let total = weigh::<2, _>(&ellipsoids, &places, 0.0, &priors, &mut weights);
+        let total = weighted_sums::<2, _>(&ellipsoids, &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "ellipsoid");
-        let total = weigh::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
+        let total = weighted_sums::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
         log2_sums_in(2, &RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
@@ -280,7 +281,7 @@ mod tests {
         let places = Places { coordinates: [&ones[..]; AXES], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut weights = [[0.0; WIDTH]];
         // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
-        let total = weigh_in(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let total = weighted_sums_in(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
         let expected = 0.5 * (-5.25f64).exp2();
         assert!(
             (weights[0][WIDTH - 1] / expected - 1.0).abs() < 1e-14
@@ -295,9 +296,9 @@ mod tests {
         let terms = RATIOS.each_ref().map(Ratio::ellipsoid);
         let priors = vec![[1.0; WIDTH]; 3];
         let (mut plain, mut shifted) = (vec![[0.0; WIDTH]; 3], vec![[0.0; WIDTH]; 3]);
-        let total = weigh::<2, _>(&terms, &places, 0.0, &priors, &mut plain);
+        let total = weighted_sums::<2, _>(&terms, &places, 0.0, &priors, &mut plain);
         for shift in [-50.0, 13.0, 400.0] {
-            let other = weigh::<2, _>(&terms, &places, shift, &priors, &mut shifted);
+            let other = weighted_sums::<2, _>(&terms, &places, shift, &priors, &mut shifted);
             assert_eq!(other * shift.exp2(), total);
             for (a, b) in plain.as_flattened().iter().zip(shifted.as_flattened()) {
                 assert_eq!(*a, b * shift.exp2());
@@ -322,7 +323,7 @@ mod tests {
         let (mut logs, mut weights) = (vec![[7.0; WIDTH]; 3], vec![[7.0; WIDTH]; 3]);
         log2_sums_in::<Ball>(1, &[], &places, &mut logs);
         assert_eq!(logs, [[f64::NEG_INFINITY; WIDTH]; 3]);
-        let total = weigh_in::<Ball>(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
+        let total = weighted_sums_in::<Ball>(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
         assert_eq!((total, weights), (0.0, vec![[0.0; WIDTH]; 3]));
     }
 }

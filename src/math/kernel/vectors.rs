@@ -74,7 +74,7 @@ const ONE: u64 = 0x3ff0_0000_0000_0000;
 /// The bits of one, less those of `sqrt(1/2)`: added to those of a number, they bring it to the power of two nearest to it.
 const CENTRED: u64 = 0x0009_5f61_9980_c433;
 
-/// The bits of `2^52`, whose last ones hold a whole number.
+/// The bits of `2^52`, whose last ones hold an integer.
 const TWO_52: u64 = 0x4330_0000_0000_0000;
 
 /// `2^52` and the bias of an exponent.
@@ -156,11 +156,11 @@ impl Lanes {
     #[inline(always)]
     #[must_use]
     pub fn log2(self) -> Self {
-        let (factor, whole) = self.0.split();
+        let (factor, integer) = self.0.split();
         let (factor, one) = (Self(factor), Self::splat(1.0));
         let s = (factor - one) / (factor + one);
         let square = s * s;
-        Self(whole) + s * polynomial!(square, LOGARITHM, 6, 5 + 4, 3 + 2, 1 + 0)
+        Self(integer) + s * polynomial!(square, LOGARITHM, 6, 5 + 4, 3 + 2, 1 + 0)
     }
 
     /// The square of the angle between two unit vectors, from the squared lengths of their sum and their difference, which
@@ -180,25 +180,25 @@ impl Lanes {
     /// `2^(x - shift)` of each to a relative 2e-14. Beyond [`MOST_EXPONENT`] on either side the result stays what it is there,
     /// and NaN counts as the least, so no result is subnormal, infinite or NaN.
     ///
-    /// The exponent is split into a whole number and a rest `r` in `[-1/2, 1/2]`; `2^(r/8)` is a polynomial, three squarings
-    /// make it `2^r`, and the whole number is added to the bits of its exponent. The shift is part of that whole number, so it
+    /// The exponent is split into an integer and a rest `r` in `[-1/2, 1/2]`; `2^(r/8)` is a polynomial, three squarings
+    /// make it `2^r`, and the integer is added to the bits of its exponent. The shift is part of that integer, so it
     /// changes no digit.
     #[inline(always)]
     #[must_use]
     pub fn exp2(self, shift: &Shift) -> Self {
         let (s, rounder) = (Self::splat, Self::splat(shift.rounder));
         let x = self.at_most(s(shift.most)).at_least(s(shift.least));
-        let whole = x + rounder;
-        let r = x - (whole - rounder);
+        let integer = x + rounder;
+        let r = x - (integer - rounder);
         let p = polynomial!(r, POLYNOMIAL, 6, 5 + 4, 3 + 2, 1 + 0);
         let p = p * p;
         let p = p * p;
         let p = p * p;
-        Self(p.0.add_to_exponent(whole.0))
+        Self(p.0.add_to_exponent(integer.0))
     }
 }
 
-/// Turns exponents into `factor 2^(exponent - shift)`, and returns the sum; as [`Lanes::exp2`], with the whole number nearest
+/// Turns exponents into `factor 2^(exponent - shift)`, and returns the sum; as [`Lanes::exp2`], with the integer nearest
 /// to `shift`.
 #[inline(never)]
 pub fn raise(exponents: &mut [Block], factors: &[Block], shift: f64) -> f64 {
@@ -232,17 +232,17 @@ impl Number for Lanes {
     }
 }
 
-/// A whole number that [`Lanes::exp2`] takes off every exponent.
+/// An integer that [`Lanes::exp2`] takes off every exponent.
 #[derive(Clone, Copy, Debug)]
 pub struct Shift {
-    /// `1.5 * 2^52 - shift`: added to a number below `2^51`, it leaves the nearest whole number, shifted, in the last bits.
+    /// `1.5 * 2^52 - shift`: added to a number below `2^51`, it leaves the nearest integer, shifted, in the last bits.
     rounder: f64,
     least: f64,
     most: f64,
 }
 
 impl Shift {
-    /// A shift by the whole number nearest to `x`.
+    /// A shift by the integer nearest to `x`.
     #[must_use]
     pub fn by(x: f64) -> Self {
         let shift = x.round().clamp(-MOST_SHIFT, MOST_SHIFT);
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_powers_are_exact() {
+    fn integer_powers_are_exact() {
         for x in -960..=960 {
             assert_eq!(exp2(f64::from(x)), f64::from(x).exp2());
         }

@@ -69,15 +69,15 @@ impl Vector {
     }
 
     #[inline(always)]
-    pub fn add_to_exponent(self, whole: Self) -> Self {
-        self.both(whole, |x, whole| f64::from_bits(x.to_bits().wrapping_add(whole.to_bits() << 52)))
+    pub fn add_to_exponent(self, integer: Self) -> Self {
+        self.both(integer, |x, integer| f64::from_bits(x.to_bits().wrapping_add(integer.to_bits() << 52)))
     }
 
     /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
     #[inline(always)]
     pub fn split(self) -> (Self, Self) {
-        let whole = |x: f64| (x.to_bits().wrapping_add(CENTRED)) >> 52;
-        let factor = self.each(|x| f64::from_bits(x.to_bits().wrapping_sub(whole(x) << 52).wrapping_add(ONE)));
-        (factor, self.each(|x| f64::from_bits(whole(x) | TWO_52) - BIAS))
+        let integer = |x: f64| (x.to_bits().wrapping_add(CENTRED)) >> 52;
+        let factor = self.each(|x| f64::from_bits(x.to_bits().wrapping_sub(integer(x) << 52).wrapping_add(ONE)));
+        (factor, self.each(|x| f64::from_bits(integer(x) | TWO_52) - BIAS))
     }
 }

@@ -78,15 +78,15 @@ impl Vector {
     }
 
     #[inline(always)]
-    pub fn add_to_exponent(self, whole: Self) -> Self {
-        self.both(whole, |x, whole| i64x2_add(x, i64x2_shl(whole, 52)))
+    pub fn add_to_exponent(self, integer: Self) -> Self {
+        self.both(integer, |x, integer| i64x2_add(x, i64x2_shl(integer, 52)))
     }
 
     /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
     #[inline(always)]
     pub fn split(self) -> (Self, Self) {
-        let whole = |x| u64x2_shr(i64x2_add(x, u64x2_splat(CENTRED)), 52);
-        let factor = self.each(|x| i64x2_add(i64x2_sub(x, i64x2_shl(whole(x), 52)), u64x2_splat(ONE)));
-        (factor, self.each(|x| f64x2_sub(v128_or(whole(x), u64x2_splat(TWO_52)), f64x2_splat(BIAS))))
+        let integer = |x| u64x2_shr(i64x2_add(x, u64x2_splat(CENTRED)), 52);
+        let factor = self.each(|x| i64x2_add(i64x2_sub(x, i64x2_shl(integer(x), 52)), u64x2_splat(ONE)));
+        (factor, self.each(|x| f64x2_sub(v128_or(integer(x), u64x2_splat(TWO_52)), f64x2_splat(BIAS))))
     }
 }
