@@ -291,7 +291,7 @@ impl Engine {
         let Some(method) = method else {
             for key in ["arrival", "quadrature"] {
                 if let Some(extra) = fields.optional(key) {
-                    return Err(extra.error(Code::UnknownKey, "has no place with the method \"pointing\""));
+                    return Err(extra.error(Code::UnknownKey, "cannot be combined with the method \"pointing\""));
                 }
             }
             let node = fields.required("pointing")?;

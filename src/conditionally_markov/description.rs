@@ -183,7 +183,7 @@ impl TimeStep {
 fn read_pins(node: &Node<'_>, steps: usize) -> Result<Vec<usize>> {
     let pin = |item: Node<'_>| match item.float()? {
         x if x.fract() == 0.0 && (0.0..=steps as f64).contains(&x) => Ok(x as usize),
-        _ => Err(item.error(Code::OutOfRange, &format!("must be a whole number from 0 to {steps}"))),
+        _ => Err(item.error(Code::OutOfRange, &format!("must be an integer from 0 to {steps}"))),
     };
     node.items()?.map(pin).collect()
 }

@@ -208,7 +208,7 @@ impl Model {
         if step <= last {
             return Ok(());
         }
-        let message = format!("must be a whole number from 0 to {last}, got {step}");
+        let message = format!("must be an integer from 0 to {last}, got {step}");
         Err(Error::new(Code::OutOfRange, "step", message))
     }
 
@@ -283,12 +283,12 @@ fn one_model(motion: &Motion, at: &Path<'_>) -> Result<Arc<dyn MotionModel>> {
 fn check_pins(pins: &[usize], at: &Path<'_>, steps: usize) -> Result<Vec<usize>> {
     let numbers: Vec<f64> = pins.iter().map(|&pin| pin as f64).collect();
     if let Some(i) = pins.iter().position(|&pin| pin > steps) {
-        let must = format!("must be a whole number from 0 to {steps}");
+        let must = format!("must be an integer from 0 to {steps}");
         return Err(at.index(i).error(Code::OutOfRange, &must, numbers[i]));
     }
     let complete = pins.len() >= 2 && pins.first() == Some(&0) && pins.last() == Some(&steps);
     if !complete || pins.windows(2).any(|pair| pair[0] >= pair[1]) {
-        let must = format!("must be ascending whole numbers that begin with 0 and end with steps, {steps}");
+        let must = format!("must be ascending integers that begin with 0 and end with steps, {steps}");
         return Err(at.error(Code::OutOfRange, &must, numbers.as_slice()));
     }
     Ok(pins.to_vec())
@@ -336,7 +336,7 @@ where
     for<'a> Value: From<&'a T>,
 {
     if items.len() != count {
-        let must = format!("must have {count} items, one for each step between the ends, has {}", items.len());
+        let must = format!("must have {count} items, one for each step between the endpoints, has {}", items.len());
         return Err(at.error(Code::WrongLength, &must, list(items)));
     }
     items.iter().enumerate().map(|(i, item)| check(item, &at.index(i))).collect()

@@ -15,7 +15,7 @@ pub(super) fn sample(model: &Model, seed: u64, count: usize) -> Result<Vec<Vec<f
     let (s, length) = (model.states, (model.steps() + 1) * model.states);
     let most = MAX_NUMBERS / length;
     if count > most {
-        let message = format!("must be a whole number from 0 to {most} for sequences of this length, got {count}");
+        let message = format!("must be an integer from 0 to {most} for sequences of this length, got {count}");
         return Err(Error::new(Code::TooLarge, "count", message));
     }
     let mut random = Random::new(seed);

@@ -351,12 +351,12 @@ mod tests {
                 "out-of-range",
                 "quadrature.points: must be odd: Simpson's rule takes pairs of intervals, got 14",
             ),
-            (r#"{"points": 1}"#, "out-of-range", "quadrature.points: must be a whole number from 3 to 1001, got 1"),
-            (r#"{"points": 1003}"#, "too-large", "quadrature.points: must be a whole number from 3 to 1001, got 1003"),
+            (r#"{"points": 1}"#, "out-of-range", "quadrature.points: must be an integer from 3 to 1001, got 1"),
+            (r#"{"points": 1003}"#, "too-large", "quadrature.points: must be an integer from 3 to 1001, got 1003"),
             (
                 r#"{"rule": "trapezoid", "points": 2.5}"#,
                 "out-of-range",
-                "quadrature.points: must be a whole number from 2 to 1001, got 2.5",
+                "quadrature.points: must be an integer from 2 to 1001, got 2.5",
             ),
             (
                 r#"{"seed": 1}"#,

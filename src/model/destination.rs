@@ -67,7 +67,7 @@ impl Destination {
         let Some(center) = fields.optional("center") else {
             for key in ["size", "endVelocity"] {
                 if let Some(extra) = fields.optional(key) {
-                    return Err(extra.error(Code::UnknownKey, "belongs to center; beside mean there is covariance"));
+                    return Err(extra.error(Code::UnknownKey, "cannot be combined with mean and covariance"));
                 }
             }
             let field = fields.required("mean")?;
@@ -81,7 +81,7 @@ impl Destination {
         };
         for key in ["mean", "covariance"] {
             if let Some(extra) = fields.optional(key) {
-                return Err(extra.error(Code::UnknownKey, "has no place beside center and size"));
+                return Err(extra.error(Code::UnknownKey, "cannot be combined with center and size"));
             }
         }
         let mut mean = center.vector(Some(dimensions))?;

@@ -65,7 +65,7 @@ impl Initial {
         if fields.optional("mean").is_some() || fields.optional("covariance").is_some() {
             for key in ["velocity", "acceleration"] {
                 if let Some(extra) = fields.optional(key) {
-                    return Err(extra.error(Code::UnknownKey, "has no place beside mean and covariance"));
+                    return Err(extra.error(Code::UnknownKey, "cannot be combined with mean and covariance"));
                 }
             }
             let mean = fields.required("mean")?.floats()?;

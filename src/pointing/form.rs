@@ -96,12 +96,12 @@ impl Parameters {
     ) -> Result<Self> {
         let filter_noise = filter_noise(motion)?;
         if !observation.is_position() {
-            let message = "has no place with the method \"pointing\", which observes positions";
+            let message = "cannot be combined with the method \"pointing\", which observes positions";
             return Err(Error::new(Code::UnknownKey, "observation.matrix", message));
         }
         axis_variances(observation.noise(), "observation.noise")?;
         let first_speed = initial.flat_deviations().ok_or_else(|| {
-            let message = "has no place with the method \"pointing\", which takes initial.velocity";
+            let message = "cannot be combined with the method \"pointing\", which takes initial.velocity";
             Error::new(Code::UnknownKey, "initial.mean", message)
         })?;
         self.check(&Path::root("pointing"))?;

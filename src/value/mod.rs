@@ -192,7 +192,7 @@ impl<'a> Node<'a> {
     /// This value as an object that may have the `legal` keys only.
     ///
     /// # Errors
-    /// `wrong-type` if it is none, `unknown-key` for any other key and for one that is there twice.
+    /// `wrong-type` if it is none, `unknown-key` for any other key and for a duplicate one.
     pub fn fields(&self, legal: &[&str]) -> Result<Fields<'_>> {
         let Value::Map(entries) = self.value else {
             return Err(self.error(Code::WrongType, "must be an object"));
@@ -284,7 +284,7 @@ impl<'a> Node<'a> {
         self.path.not_negative(self.float()?)
     }
 
-    /// A whole number that passes [`Path::whole`].
+    /// An integer that passes [`Path::whole`].
     ///
     /// # Errors
     /// `wrong-type`, and those of [`Path::whole`].

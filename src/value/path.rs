@@ -68,10 +68,10 @@ impl<'a> Path<'a> {
         if x >= 0.0 { Ok(x) } else { Err(self.error(Code::OutOfRange, "must be at least 0", x)) }
     }
 
-    /// A whole number from `low` to `high`; above `high` the code is `too-large`.
+    /// An integer from `low` to `high`; above `high` the code is `too-large`.
     pub fn whole(&self, x: f64, low: usize, high: usize) -> Result<usize> {
         let x = self.number(x)?;
-        let must = || format!("must be a whole number from {low} to {high}");
+        let must = || format!("must be an integer from {low} to {high}");
         if x.fract() != 0.0 || x < low as f64 {
             return Err(self.error(Code::OutOfRange, &must(), x));
         }

@@ -113,7 +113,7 @@ impl SequenceEngine {
         if x.fract() == 0.0 && (0.0..=last as f64).contains(&x) {
             return Ok(x as usize);
         }
-        Err(node.error(Code::OutOfRange, &format!("must be a whole number from 0 to {last}")))
+        Err(node.error(Code::OutOfRange, &format!("must be an integer from 0 to {last}")))
     }
 }
 

@@ -86,7 +86,7 @@ test("what it does not have is refused by name", () => {
   const motion = { ...scenario.motion, type: "brownian" };
   refuses(make({ motion }), "out-of-range", "motion.type", 'must be one of "constantVelocity", got "brownian"');
   const arrival = { type: "uniform", from: 1, to: 2 };
-  refuses(make({ arrival }), "unknown-key", "arrival", 'has no place with the method "pointing", got an object');
+  refuses(make({ arrival }), "unknown-key", "arrival", 'cannot be combined with the method "pointing", got an object');
   const [first] = scenario.destinations;
   const message =
     'unknown key "arrival", expected one of "id", "mean", "covariance", "center", "size", "endVelocity", "prior"';

@@ -106,7 +106,7 @@ const cases = [
   ["a track in space", broken({ targets: [[0, 0, 0, 9]], samples: [[0, 50, 0, 0], [1, 0, 0, 0]], target: 0 }), walk, {}, "wrong-length", "tracks[1].targets[0].center", "must have 2 numbers, has 3, got [0, 0, 0]"],
   ["a scenario that is wrong", [good], { ...walk, motion: { ...walk.motion, noise: -1 } }, {}, "out-of-range", "motion.noise", "must be greater than 0, got -1"],
   ["no such constant", walks(20), walk, { constants: ["motion.speed"] }, "out-of-range", "constants", '"motion.speed" must be a number above 0 to be learnt, got nothing'],
-  ["no evaluation", [good], walk, { evaluations: 0 }, "out-of-range", "evaluations", "must be a whole number from 1 to 100000, got 0"],
+  ["no evaluation", [good], walk, { evaluations: 0 }, "out-of-range", "evaluations", "must be an integer from 1 to 100000, got 0"],
   ["progress that is no function", [good], walk, { progress: 3 }, "wrong-type", "progress", "must be a function"],
 ];
 

@@ -312,7 +312,7 @@ fn bad_motions_are_refused_by_name() {
         (
             r#"{"type": "brownian", "dimensions": 4, "noise": 1}"#.to_owned(),
             "out-of-range",
-            "motion.dimensions: must be a whole number from 1 to 3, got 4",
+            "motion.dimensions: must be an integer from 1 to 3, got 4",
         ),
         (
             r#"{"type": "brownian", "dimensions": 2, "noise": 1, "rate": 2}"#.to_owned(),
