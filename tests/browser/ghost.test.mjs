@@ -6,7 +6,7 @@ import { hosted } from "./support.mjs";
 describe("ghost", () => {
   const site = hosted();
 
-  /** A page whose clock stands still unless `page.clock.runFor` moves it. */
+  /** A page whose clock is stopped unless `page.clock.runFor` moves it. */
   async function fresh(options) {
     const context = await site.browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
     const page = await context.newPage();
@@ -14,25 +14,25 @@ describe("ghost", () => {
     await page.clock.pauseAt(1000);
     await page.goto(site.url);
     await page.waitForFunction(() => document.querySelector("#none").textContent !== "–", null, { polling: 50 });
-    return { page, seen: () => page.locator("#ghost").isVisible(), close: () => context.close() };
+    return { page, visible: () => page.locator("#ghost").isVisible(), close: () => context.close() };
   }
 
-  it("comes after a second, goes at the first input, and comes back when nobody has moved for a while", async () => {
-    const { page, seen, close } = await fresh();
+  it("comes after a second, goes at the first input, and comes back after a while without input", async () => {
+    const { page, visible, close } = await fresh();
     await page.clock.runFor(700);
-    assert.equal(await seen(), false);
+    assert.equal(await visible(), false);
     await page.clock.runFor(700);
-    assert.equal(await seen(), true);
+    assert.equal(await visible(), true);
     await page.clock.runFor(4000);
     assert.match(await page.locator("#lead").textContent(), /^Simulated hand\b/);
     assert.match(await page.locator("#status").textContent(), /^A simulated hand\./);
     assert.equal(await page.locator("#median").textContent(), "–");
     await page.mouse.move(600, 300);
-    assert.equal(await seen(), false);
+    assert.equal(await visible(), false);
     await page.clock.runFor(10_000);
-    assert.equal(await seen(), false);
+    assert.equal(await visible(), false);
     await page.clock.runFor(8000);
-    assert.equal(await seen(), true);
+    assert.equal(await visible(), true);
     await close();
   });
 
@@ -41,18 +41,18 @@ describe("ghost", () => {
       const { page, close } = await fresh({ viewport });
       await page.clock.runFor(1200);
       await page.evaluate(() => {
-        window.seen = { frames: 0, lit: 0, ringed: 0, hidden: [], fastest: 0, trails: 0, presses: 0 };
+        window.counted = { frames: 0, lit: 0, ringed: 0, hidden: [], fastest: 0, trails: 0, presses: 0 };
         const arrow = document.querySelector("#ghost .arrow");
         let last = null;
         const watch = (now) => {
           const icons = [...document.querySelectorAll("button[data-destination]")];
-          const { seen } = window;
-          seen.frames += 1;
-          if (icons.some((icon) => Number(icon.style.getPropertyValue("--light-share")) > 0.3)) seen.lit += 1;
-          if (icons.some((icon) => icon.dataset.predicted === "true")) seen.ringed += 1;
-          if (document.querySelector("#ghost .trail").getAttribute("d")) seen.trails += 1;
+          const { counted } = window;
+          counted.frames += 1;
+          if (icons.some((icon) => Number(icon.style.getPropertyValue("--light-share")) > 0.3)) counted.lit += 1;
+          if (icons.some((icon) => icon.dataset.predicted === "true")) counted.ringed += 1;
+          if (document.querySelector("#ghost .trail").getAttribute("d")) counted.trails += 1;
           const at = arrow.getBoundingClientRect();
-          if (last) seen.fastest = Math.max(seen.fastest, (1000 * Math.hypot(at.left - last.left, at.top - last.top)) / (now - last.now));
+          if (last) counted.fastest = Math.max(counted.fastest, (1000 * Math.hypot(at.left - last.left, at.top - last.top)) / (now - last.now));
           last = { now, left: at.left, top: at.top };
           requestAnimationFrame(watch);
         };
@@ -60,13 +60,13 @@ describe("ghost", () => {
         new MutationObserver((records) => {
           const icon = records.find(({ target }) => target.hasAttribute("data-pressed"))?.target;
           if (!icon) return;
-          window.seen.presses += 1;
+          window.counted.presses += 1;
           const [at, glyph] = [arrow, icon.querySelector(".glyph")].map((element) => element.getBoundingClientRect());
-          if (at.left < glyph.right && at.right > glyph.left && at.top < glyph.bottom && at.bottom > glyph.top) window.seen.hidden.push(icon.dataset.destination);
+          if (at.left < glyph.right && at.right > glyph.left && at.top < glyph.bottom && at.bottom > glyph.top) window.counted.hidden.push(icon.dataset.destination);
         }).observe(document.querySelector("#grid"), { subtree: true, attributeFilter: ["data-pressed"] });
       });
       await page.clock.runFor(15_000);
-      const { frames, lit, ringed, hidden, fastest, trails, presses } = await page.evaluate(() => window.seen);
+      const { frames, lit, ringed, hidden, fastest, trails, presses } = await page.evaluate(() => window.counted);
       await close();
       assert.ok(frames > 500, `${frames} frames`);
       assert.ok(lit > 0.6 * frames, `lit in ${lit} of ${frames} frames`);
@@ -79,9 +79,9 @@ describe("ghost", () => {
   }
 
   it("stays away where motion is to be reduced", async () => {
-    const { page, seen, close } = await fresh({ reducedMotion: "reduce" });
+    const { page, visible, close } = await fresh({ reducedMotion: "reduce" });
     await page.clock.runFor(30_000);
-    assert.equal(await seen(), false);
+    assert.equal(await visible(), false);
     await close();
   });
 });

@@ -1,4 +1,4 @@
-// Where icons and pixels change without an event that says so: a transform on an ancestor, another resolution.
+// Where icons and pixels change without an event for it: a transform on an ancestor, another resolution.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { head, hosted, mouse, nextFrame, open } from "./support.mjs";
@@ -20,20 +20,20 @@ describe("layout", () => {
 
   for (const [name, selector, style] of MOVES) {
     it(`follows ${name}`, async () => {
-      const { page, sins, close } = await open(site.browser, site.url);
+      const { page, problems, close } = await open(site.browser, site.url);
       await page.evaluate(([selector, style]) => document.querySelector(selector).style.cssText += style, [selector, style]);
       const hand = await mouse(page);
       for (const [from, to] of [["media", "tyres"], ["fuel", "navigation"], ["help", "phone"]]) {
         const { shown } = await head(page, hand, from, to, { seed: 7, share: 0.85 });
         assert.equal(shown.top.id, to, `from ${from}`);
       }
-      assert.deepEqual(sins, []);
+      assert.deepEqual(problems, []);
       await close();
     });
   }
 
   it("begins again where the method accumulates and the icons have moved", async () => {
-    const { page, sins, close } = await open(site.browser, site.url);
+    const { page, problems, close } = await open(site.browser, site.url);
     await page.locator(".controls summary").click();
     await page.locator("select[name=method]").selectOption("algorithm1");
     const hand = await mouse(page);
@@ -41,17 +41,17 @@ describe("layout", () => {
     await page.evaluate(() => (document.querySelector("#grid").style.transform = "translate(-60px, 30px)"));
     const { shown } = await head(page, hand, "fuel", "navigation", { seed: 4, share: 0.9 });
     assert.equal(shown.top.id, "navigation");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   for (const path of ["", "sequences/index.html"]) {
     it(`draws as finely as the screen shows, on /${path}`, async () => {
       const ready = path === "" ? undefined : { path, ready: () => document.querySelector("#so-far").textContent.includes("of") };
-      const { page, sins, close } = await open(site.browser, site.url, {}, ready);
+      const { page, problems, close } = await open(site.browser, site.url, {}, ready);
       const session = await page.context().newCDPSession(page);
       for (const [step, deviceScaleFactor] of [2, 1.5, 1].entries()) {
-        // Chromium tells the page of an emulated resolution only together with another size; this one resizes nothing on it
+        // Chromium reports an emulated resolution to the page only together with another size; this one resizes nothing on it
         const size = { width: 1280, height: 801 + step };
         await session.send("Emulation.setDeviceMetricsOverride", { ...size, deviceScaleFactor, mobile: false });
         await nextFrame(page);
@@ -60,7 +60,7 @@ describe("layout", () => {
         const found = await canvases(page);
         assert.ok(found.length > 0 && found.every((ratio) => Math.abs(ratio - deviceScaleFactor) < 0.02), `${deviceScaleFactor}: ${found}`);
       }
-      assert.deepEqual(sins, []);
+      assert.deepEqual(problems, []);
       await close();
     });
   }

@@ -55,14 +55,14 @@ describe("look", () => {
     };
 
     it("is the system's where nothing was chosen, and follows it", async () => {
-      const { page, sins, close } = await fresh({ colorScheme: "light" });
+      const { page, problems, close } = await fresh({ colorScheme: "light" });
       assert.ok((await lightness(page)) > 200);
       assert.equal(await page.locator("#theme").getAttribute("aria-pressed"), "true");
       await page.emulateMedia({ colorScheme: "dark" });
       await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
       assert.ok((await lightness(page)) < 40);
       assert.equal(await page.locator("#theme").getAttribute("aria-pressed"), "false");
-      assert.deepEqual(sins, []);
+      assert.deepEqual(problems, []);
       await close();
     });
 
@@ -93,11 +93,11 @@ describe("look", () => {
     for (const [width, height] of [[1920, 1080], [1280, 800], [900, 700], [390, 844], [360, 740]]) {
       for (const [name, where] of [["page", undefined], ["page of the sequences", SEQUENCES]]) {
         it(`collides nowhere and is cut nowhere at 200%, ${width} px, on the ${name}`, async () => {
-          const { page, sins, close } = await fresh({ viewport: { width, height } }, where);
+          const { page, problems, close } = await fresh({ viewport: { width, height } }, where);
           await page.evaluate(() => (document.documentElement.style.fontSize = "200%"));
           if (!where) await press(page);
           assert.deepEqual(await page.evaluate(collisions), []);
-          assert.deepEqual(sins, []);
+          assert.deepEqual(problems, []);
           await close();
         });
       }
@@ -114,7 +114,7 @@ describe("look", () => {
   });
 
   it("keeps bars and ring in the system's own colours", async () => {
-    const { page, sins, close } = await fresh({ forcedColors: "active" });
+    const { page, problems, close } = await fresh({ forcedColors: "active" });
     const { shown } = await head(page, await mouse(page), "fuel", "seats", { seed: 5 });
     assert.ok(shown.icons.some((icon) => icon.predicted));
     const { ground, text, bar, rail, outline, ring, fan } = await page.evaluate(() => {
@@ -133,12 +133,12 @@ describe("look", () => {
     assert.equal(rail, ground);
     assert.equal(outline, `solid ${text}`);
     for (const colour of [bar, ring, fan]) assert.notEqual(colour, ground);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
-  it("shows an example on the idle chart, with nothing cut off, and says that it is one", async () => {
-    const { page, sins, close } = await fresh({ reducedMotion: "reduce" });
+  it("shows an example on the idle chart, with nothing cut off, and labels it as one", async () => {
+    const { page, problems, close } = await fresh({ reducedMotion: "reduce" });
     assert.match(await page.locator("#lead").textContent(), /^An example, until you move\. Seats: right \d+ ms before the press$/);
     const edges = await page.evaluate(() => {
       const canvas = document.querySelector("#chart canvas");
@@ -159,7 +159,7 @@ describe("look", () => {
     await head(page, await mouse(page), "fuel", "seats", { seed: 5 });
     assert.equal(await page.locator("#chart[data-example]").count(), 0);
     assert.equal(await page.locator("#lead").textContent(), "Under way");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
@@ -230,8 +230,8 @@ function collisions() {
       if (other.element !== element && over(letters(box), letters(other.box))) found.push(`${text} over ${other.text}`);
     }
     const inside = element.closest("button")?.getBoundingClientRect();
-    if (inside && (box.left < inside.left - 1 || box.right > inside.right + 1 || box.bottom > inside.bottom + 1)) found.push(`${text} leaves its button`);
-    if (!element.closest("pre") && (box.right > innerWidth + 1 || box.left < -1)) found.push(`${text} leaves the page`);
+    if (inside && (box.left < inside.left - 1 || box.right > inside.right + 1 || box.bottom > inside.bottom + 1)) found.push(`${text} is outside its button`);
+    if (!element.closest("pre") && (box.right > innerWidth + 1 || box.left < -1)) found.push(`${text} is outside the page`);
   });
   return found;
 }

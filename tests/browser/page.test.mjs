@@ -27,19 +27,19 @@ describe("page", () => {
 
   for (const { width, height, columns } of SIZES) {
     it(`shows 21 icons in ${columns} columns at ${width} x ${height}, and scrolls nothing sideways`, async () => {
-      const { page, sins, close } = await fresh({ viewport: { width, height } });
+      const { page, problems, close } = await fresh({ viewport: { width, height } });
       const icons = await middles(page);
       assert.deepEqual(icons.map((icon) => icon.id), IDS.flat());
       assert.equal(new Set(icons.map((icon) => Math.round(icon.x))).size, columns);
       for (const icon of icons) assert.ok(icon.width >= 44 && icon.height >= 44, `${icon.id} is ${icon.width} x ${icon.height}`);
       assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
       assert.ok((await page.locator("#screen").boundingBox()).width <= 1600);
-      assert.deepEqual(sins, []);
+      assert.deepEqual(problems, []);
       await close();
     });
   }
 
-  it("believes the same of every icon before anything moves", async () => {
+  it("gives every icon the same probability before anything moves", async () => {
     const { page, close } = await fresh();
     const { icons, none, sum } = await read(page);
     assert.equal(new Set(icons.map((icon) => icon.probability)).size, 1);
@@ -50,7 +50,7 @@ describe("page", () => {
   });
 
   it("walks the icons with the arrow keys in reading order, and Enter presses", async () => {
-    const { page, sins, close } = await fresh();
+    const { page, problems, close } = await fresh();
     const focused = () => page.evaluate(() => document.activeElement.dataset.destination);
     await page.locator("[data-destination=navigation]").focus();
     for (const id of IDS.flat().slice(1)) {
@@ -69,7 +69,7 @@ describe("page", () => {
     await page.keyboard.press("Enter");
     assert.equal((await read(page)).status, "Parking pressed, without a movement to predict it from.");
     assert.equal(await page.locator("#median").textContent(), "–");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
@@ -92,8 +92,8 @@ describe("page", () => {
     });
   }
 
-  it("changes the method, the noise and the points without a complaint", async () => {
-    const { page, sins, close } = await fresh();
+  it("changes the method, the noise and the points without a message on the console", async () => {
+    const { page, problems, close } = await fresh();
     await page.locator("summary").click();
     const methods = await page.locator("select[name=method] option").evaluateAll((options) => options.map((option) => option.value));
     assert.ok(methods.includes("pointing") && methods.includes("algorithm1") && methods.includes("pseudoObservation"));
@@ -113,7 +113,7 @@ describe("page", () => {
       assert.match(await page.locator("#remaining").textContent(), /^\d+\.\d\d s$/);
     }
     assert.equal(await page.locator("#announcement").evaluate((status) => status.getAttribute("aria-live")), "polite");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
@@ -126,7 +126,7 @@ describe("page", () => {
     await close();
   });
 
-  it("shows ten lines that do what it says", async () => {
+  it("shows ten lines of code that run as shown", async () => {
     const { page: shown, close } = await fresh();
     const listing = await shown.locator("#listing").textContent();
     await close();
@@ -143,16 +143,16 @@ describe("page", () => {
     await page.setContent('<button id="left">Left</button><button id="right" style="margin-left: 700px">Right</button>');
     const errors = [];
     page.on("pageerror", (error) => errors.push(error.message));
-    const said = page.waitForEvent("console", { predicate: async (message) => (await message.args()[0]?.jsonValue())?.probability > 0.9 });
+    const logged = page.waitForEvent("console", { predicate: async (message) => (await message.args()[0]?.jsonValue())?.probability > 0.9 });
     await page.evaluate((url) => import(url), `data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
     const hand = await mouse(page);
     await hand.play(movement({ x: 40, y: 300 }, { x: 780, y: 18 }, 40, { seed: 1 }));
-    assert.equal((await (await said).args()[0].jsonValue()).id, "right");
+    assert.equal((await (await logged).args()[0].jsonValue()).id, "right");
     assert.deepEqual(errors, []);
     await page.close();
   });
 
-  it("says in words why it cannot start", async () => {
+  it("states why it cannot start", async () => {
     const strict = await serve("default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self'");
     const { page, close } = await open(site.browser, strict.url);
     assert.match((await read(page)).status, /^The predictor could not start: .*wasm-unsafe-eval/);

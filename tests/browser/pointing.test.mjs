@@ -1,4 +1,4 @@
-// The main thing, on the real thing: Chromium's mouse heads for every icon, and the page knows before it is there.
+// Prediction on the built page: Chromium's mouse heads for every icon, and the page predicts it before the mouse is there.
 import assert from "node:assert/strict";
 import { before, describe, it } from "node:test";
 import { movement } from "./hand.mjs";
@@ -20,7 +20,7 @@ describe("pointing", () => {
   before(async () => (opened = await open(site.browser, site.url)));
 
   it("has the right icon on top at 80% of the movement time in at least 95% of the movements", async (test) => {
-    const { page, sins } = opened;
+    const { page, problems } = opened;
     const hand = await mouse(page);
     const icons = await middles(page);
     assert.equal(icons.length, 21);
@@ -41,10 +41,10 @@ describe("pointing", () => {
     }
     test.diagnostic(`${count - wrong.length} of ${count} right at 80% of the time${wrong.map((each) => `\n  wrong: ${each}`).join("")}`);
     assert.ok(wrong.length <= 0.05 * count, wrong.join("\n"));
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
   });
 
-  it("rings the icon that it is sure of, and says so at once", async () => {
+  it("rings the icon that it is sure of, and announces it at once", async () => {
     const { page } = opened;
     const hand = await mouse(page);
     const { shown } = await head(page, hand, "fuel", "seats", { seed: 5 });
@@ -54,7 +54,7 @@ describe("pointing", () => {
     await page.waitForFunction(() => document.querySelector("#announcement").textContent === "Heading for Seats.");
   });
 
-  it("tells one outcome of a press, and the numbers are those of the sentence", async () => {
+  it("reports one outcome of a press, and the numbers are those of the sentence", async () => {
     const { page } = opened;
     const hand = await mouse(page);
     await hand.press((await middles(page)).find((icon) => icon.id === "seats"));
@@ -67,7 +67,7 @@ describe("pointing", () => {
   });
 
   it("counts a press on another icon than the one that it had ringed", async () => {
-    const { page, sins } = opened;
+    const { page, problems } = opened;
     const hand = await mouse(page);
     const icons = await middles(page);
     const from = icons.find((icon) => icon.id === "seats");
@@ -82,11 +82,11 @@ describe("pointing", () => {
     const { lead, right, wrong, presses } = await outcome(page);
     assert.match(lead, /^Camera: wrong at first \(\w+\), right \d+ ms before the press$/);
     assert.deepEqual([right, wrong, presses], ["50%", "50%", "Over 2 presses"]);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
   });
 
   for (const [name, rest] of [["a hover of 120 ms", 0.12], ["a rest", 0.5]]) {
-    it(`does not lose a right prediction to ${name} before the press, nor to a hand that settles`, async () => {
+    it(`does not lose a right prediction to ${name} before the press, nor to a hand that comes to rest`, async () => {
       const { page, close } = await open(site.browser, site.url);
       const hand = await mouse(page);
       const { end } = await head(page, hand, "fuel", "seats", { seed: 5 });
@@ -188,8 +188,8 @@ describe("pointing", () => {
     }
   });
 
-  it("ends the movement where the page is hidden, and begins another when it is seen again", async () => {
-    const { page, sins, close } = await open(site.browser, site.url);
+  it("ends the movement where the page is hidden, and begins another when it is visible again", async () => {
+    const { page, problems, close } = await open(site.browser, site.url);
     const hand = await mouse(page);
     const { shown } = await head(page, hand, "fuel", "seats", { seed: 5 });
     assert.ok(shown.top.probability >= 0.8, `${shown.top.id} ${shown.top.probability}`);
@@ -201,12 +201,12 @@ describe("pointing", () => {
     const hidden = await read(page);
     assert.deepEqual(hidden.icons.filter((icon) => icon.predicted), []);
     assert.ok(hidden.icons.every((icon) => Math.abs(icon.probability - hidden.icons[0].probability) < 1e-4));
-    // at once, without a rest: what went before would speak for the seats
+    // at once, without a rest: the observations before would favour the seats
     const icons = await middles(page);
     const [seats, trip] = ["seats", "trip"].map((id) => icons.find((icon) => icon.id === id));
     await hand.play(movement(seats, trip, Math.min(trip.width, trip.height), { seed: 2 }));
     assert.equal((await read(page)).top.id, "trip");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
@@ -237,7 +237,7 @@ describe("pointing", () => {
   });
 });
 
-/** What the page says of the last press and of all. */
+/** What the page shows of the last press and of all. */
 function outcome(page) {
   return page.evaluate(() => {
     const text = (id) => document.getElementById(id).textContent;

@@ -1,5 +1,5 @@
 // Recorded hands on the same page. The recordings are not part of the project: without the folder of them that RECORDINGS names
-// this says so, and counts as skipped.
+// this prints a note, and counts as skipped.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
@@ -19,8 +19,8 @@ const skip = absent.length > 0 && `RECORDINGS names no folder that has the recor
 describe("recorded hands", { skip }, () => {
   const site = hosted();
 
-  it("are understood: 50 tracks, each moved by a similarity to the pair of icons that it is nearest to in length and angle", async (test) => {
-    const { page, sins, close } = await open(site.browser, site.url);
+  it("are predicted: 50 tracks, each moved by a similarity to the pair of icons that it is nearest to in length and angle", async (test) => {
+    const { page, problems, close } = await open(site.browser, site.url);
     const hand = await mouse(page);
     const icons = await middles(page);
     let rightAtPress = 0;
@@ -44,7 +44,7 @@ describe("recorded hands", { skip }, () => {
       }
     }
     const shown = await page.evaluate(() => ["median", "early-right", "early-wrong", "presses"].map((id) => document.getElementById(id).textContent));
-    test.diagnostic(`right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page says ${shown.join(", ")}`);
+    test.diagnostic(`right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page shows ${shown.join(", ")}`);
     assert.equal(count, 50);
     assert.equal(shown[3], "Over 50 presses");
     // Set with room below what was measured when this was written: 45, 44, 665 ms, 8%.
@@ -52,7 +52,7 @@ describe("recorded hands", { skip }, () => {
     assert.ok(rightAtPress >= 38, `${rightAtPress} right at the press`);
     assert.ok(Number.parseInt(shown[0], 10) >= 300, `median lead ${shown[0]}`);
     assert.ok(Number.parseInt(shown[2], 10) <= 20, `early and wrong ${shown[2]}`);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 });
@@ -63,7 +63,7 @@ async function evenly(name, wanted) {
   return Array.from({ length: wanted }, (_, index) => JSON.parse(lines[Math.floor(((index + 0.5) * lines.length) / wanted)]));
 }
 
-/** A similarity transform takes the track to the pair of icons that asks for the least turn and change of size. */
+/** A similarity transform takes the track to the pair of icons that needs the least turn and change of size. */
 function onPage(track, icons) {
   const first = track.samples[0];
   const last = track.samples.at(-1);

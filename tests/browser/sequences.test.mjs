@@ -46,22 +46,22 @@ describe("the page of the sequences", () => {
   const opened = (options) => open(browser, server.url, options, SEQUENCES);
 
   it("shows the paper's figure and what is predicted after nine measurements", async () => {
-    const { page, sins, close } = await opened();
+    const { page, problems, close } = await opened();
     const share = await inked(page);
     assert.ok(share > 0.02, `${share} of the map is drawn on`);
     const found = await facts(page);
     assert.equal(found["so-far"], "9 of 100");
-    assert.equal(found.deviation, "32 m"); // the paper's C_N: nine measurements say nothing of 30 m in 128 km
+    assert.equal(found.deviation, "32 m"); // the paper's C_N: nine measurements hold no information on 30 m in 128 km
     assert.ok(metres(found["markov-deviation"]) > 1000, found["markov-deviation"]);
     assert.equal(found.kind, "reciprocal, not Markov");
     assert.match(found.status, /^After 9 measurements the landing place is known to 32 m; /);
     assert.equal(await page.locator("#announcement").textContent(), found.status);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   it("takes a waypoint from the mouse and from the keyboard, and gives it back", async () => {
-    const { page, sins, close } = await opened();
+    const { page, problems, close } = await opened();
     const before = await drawing(page);
     const { x, y, width, height } = await page.locator("#waypoint").boundingBox();
     await page.mouse.move(x + width / 2, y + height / 2);
@@ -79,12 +79,12 @@ describe("the page of the sequences", () => {
     await page.locator("#remove").click();
     assert.equal((await facts(page)).kind, "reciprocal, not Markov");
     assert.ok((await drawing(page)) === before);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   it("predicts better as measurements arrive", async () => {
-    const { page, sins, close } = await opened();
+    const { page, problems, close } = await opened();
     await page.locator("[name=destination]").fill("3.4");
     await page.locator("#measured").fill("5");
     const early = metres((await facts(page)).deviation);
@@ -92,7 +92,7 @@ describe("the page of the sequences", () => {
     const late = metres((await facts(page)).deviation);
     assert.ok(early > 2000 && late < 400, `${early} m, then ${late} m`);
     await page.locator("#measured").fill("0");
-    // a clock of the test's own: the page's timers run when it says so
+    // a clock of the test's own: the page's timers run when it advances
     await page.clock.install();
     await page.locator("#play").click();
     await page.clock.runFor(1000);
@@ -101,12 +101,12 @@ describe("the page of the sequences", () => {
     const paused = (await facts(page))["so-far"];
     await page.clock.runFor(60_000);
     assert.equal((await facts(page))["so-far"], paused);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
-  it("says while it plays what the numbers show, and announces only where it stops", async () => {
-    const { page, sins, close } = await opened();
+  it("states while it plays what the numbers show, and announces only where it stops", async () => {
+    const { page, problems, close } = await opened();
     await page.locator("#measured").fill("40");
     await page.locator("#play").click();
     const frames = await page.evaluate(async () => {
@@ -125,12 +125,12 @@ describe("the page of the sequences", () => {
     assert.ok(new Set(frames.map((frame) => frame.at(-1))).size <= 3);
     await page.locator("#play").click();
     await page.waitForFunction(() => document.querySelector("#announcement").textContent === document.querySelector("#status").textContent);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   it("follows what is set, and goes back to the paper's values", async () => {
-    const { page, sins, close } = await opened();
+    const { page, problems, close } = await opened();
     const paper = await drawing(page);
     for (const [name, value] of [["noise", "-2.5"], ["origin", "3.4"], ["destination", "3.4"], ["correlation", "0.9"]]) {
       const before = await drawing(page);
@@ -144,26 +144,26 @@ describe("the page of the sequences", () => {
     await page.locator("#another").click();
     await facts(page);
     assert.ok((await drawing(page)) !== paper);
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   for (const width of [360, 900, 1280, 2560]) {
     it(`fits ${width} px`, async () => {
-      const { page, sins, close } = await opened({ viewport: { width, height: 800 } });
+      const { page, problems, close } = await opened({ viewport: { width, height: 800 } });
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-      assert.deepEqual(sins, []);
+      assert.deepEqual(problems, []);
       await close();
     });
   }
 
   it("is reached from the first page, and leads back", async () => {
-    const { page, sins, close } = await open(browser, server.url);
+    const { page, problems, close } = await open(browser, server.url);
     await page.locator('a[href$="sequences/index.html"]').first().click();
     await page.waitForFunction(SEQUENCES.ready);
     await page.locator(".name a").click();
     await page.waitForSelector("button[data-destination]");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 });

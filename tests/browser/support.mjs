@@ -7,7 +7,7 @@ import { movement } from "./hand.mjs";
 
 export { launch };
 
-/** Nothing from elsewhere, nothing inline; WebAssembly is all that the package asks for. */
+/** Nothing from elsewhere, nothing inline; WebAssembly is all that the package needs. */
 const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; font-src 'self'; img-src 'self'";
 
 /** Serves the built page from a sub-path, as on any shared static host. */
@@ -31,29 +31,29 @@ export function hosted() {
   return site;
 }
 
-/** The car's screen: ready once it believes something. */
+/** The car's screen: ready once it shows probabilities. */
 const SCREEN = { path: "", ready: () => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed };
 
-/** A page that is ready, with everything that it must not do collected in `sins`. */
+/** A page that is ready, with everything that it must not do collected in `problems`. */
 export async function open(browser, url, options = {}, { path, ready } = SCREEN) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...options });
   const page = await context.newPage();
   await page.addInitScript(watchShifts);
-  const sins = [];
+  const problems = [];
   page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) sins.push(`console: ${message.text()}`);
+    if (["error", "warning"].includes(message.type())) problems.push(`console: ${message.text()}`);
   });
-  page.on("pageerror", (error) => sins.push(`error: ${error.message}`));
+  page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => {
-    if (!request.url().startsWith(url)) sins.push(`request elsewhere: ${request.url()}`);
+    if (!request.url().startsWith(url)) problems.push(`request elsewhere: ${request.url()}`);
   });
-  page.on("requestfailed", (request) => sins.push(`request failed: ${request.url()}`));
+  page.on("requestfailed", (request) => problems.push(`request failed: ${request.url()}`));
   page.on("response", (response) => {
-    if (response.status() >= 400) sins.push(`${response.status()}: ${response.url()}`);
+    if (response.status() >= 400) problems.push(`${response.status()}: ${response.url()}`);
   });
   await page.goto(url + path);
   await page.waitForFunction(ready);
-  return { page, sins, close: () => context.close() };
+  return { page, problems, close: () => context.close() };
 }
 
 /** Runs in the page: adds up what moves that should not. */

@@ -23,7 +23,7 @@ describe("touch", () => {
     ]);
 
   it("scrolls the page with a swipe over the icons, and presses none of them", async () => {
-    const { page, sins, close } = await fresh();
+    const { page, problems, close } = await fresh();
     const icons = await middles(page);
     const [from, to] = ["fuel", "climate"].map((id) => icons.find((icon) => icon.id === id));
     await drag(page, line(from, { x: from.x, y: to.y }, 0.3));
@@ -32,12 +32,12 @@ describe("touch", () => {
     const shown = await read(page);
     assert.ok(shown.icons.every((icon) => !icon.predicted));
     assert.equal(shown.status, "Draw a finger sideways, towards an icon.");
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   it("predicts a finger that is drawn sideways, and takes its lifting for no press", async () => {
-    const { page, sins, close } = await fresh();
+    const { page, problems, close } = await fresh();
     const icons = await middles(page);
     const [from, to] = ["lights", "messages"].map((id) => icons.find((icon) => icon.id === id));
     let shown;
@@ -48,17 +48,17 @@ describe("touch", () => {
     assert.ok(Math.abs(shown.sum - 1) < 1e-4);
     assert.equal(await page.evaluate(() => scrollY), 0);
     assert.deepEqual(await presses(page), { pressed: 0, median: "–" });
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 
   it("presses with a tap", async () => {
-    const { page, sins, close } = await fresh();
+    const { page, problems, close } = await fresh();
     const { x, y } = (await middles(page)).find((icon) => icon.id === "media");
     await page.touchscreen.tap(x, y);
     assert.equal((await read(page)).status, "Media pressed, without a movement to predict it from.");
     assert.deepEqual(await presses(page), { pressed: 1, median: "–" });
-    assert.deepEqual(sins, []);
+    assert.deepEqual(problems, []);
     await close();
   });
 });

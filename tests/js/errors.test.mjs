@@ -176,7 +176,7 @@ const uses = [
     "must have no more than 1000000 items, has 4294967295",
   ],
   [
-    "a position that says it is huge",
+    "a position that claims a huge length",
     (p) => p.observe(3, { length: 2 ** 53 }),
     "wrong-type",
     "position",

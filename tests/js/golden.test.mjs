@@ -1,4 +1,4 @@
-// The golden cases, through the built package: what an independent reference got for whole movements.
+// The golden cases, through the built package: what an independent reference computed for complete movements.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ConditionallyMarkovSequence, init, Predictor } from "whither";

@@ -50,7 +50,7 @@ test("nothing works before init", () => {
   }
 });
 
-test("whither/slim says that it needs to be told where the WebAssembly is", async () => {
+test("whither/slim rejects without the location of the WebAssembly", async () => {
   await fails(slim.init(), "missing-key", 'wasm: missing key "wasm": whither/slim has no bytes of its own');
 });
 
@@ -66,7 +66,7 @@ test("an address that answers with a page", async () => {
   await fails(init({ wasm: address }), "wasm-unavailable", message);
 });
 
-test("an address where nobody answers", async () => {
+test("an address that does not answer", async () => {
   const message = "http://127.0.0.1:1/whither.wasm cannot be fetched: fetch failed";
   await fails(init({ wasm: "http://127.0.0.1:1/whither.wasm" }), "wasm-unavailable", message);
   await fails(init({ wasm: Promise.reject(new Error("no")) }), "wasm-unavailable", "the promise of it was rejected: no");
@@ -91,7 +91,7 @@ test("something that is no source at all", async () => {
   refuses(() => initSync(), "wrong-type", "module", "must be a WebAssembly.Module or its bytes");
 });
 
-test("bytes that are cut off or damaged are blamed, and neither a policy nor the engine", async () => {
+test("the error for truncated or damaged bytes names them, and neither a policy nor the engine", async () => {
   const change = (at, byte) => Uint8Array.from(bytes).fill(byte, at, at + 1);
   const cases = [8, 9, 1000, bytes.length >> 1, bytes.length - 1].map((length) => bytes.subarray(0, length));
   for (const wasm of [...cases.slice(1), change(4, 2), change(8, 255), change(12, 255)]) {
@@ -114,23 +114,23 @@ test("bytes that are cut off or damaged are blamed, and neither a policy nor the
   await fails(slim.init({ wasm: gzipSync(bytes) }), "wasm-unavailable", "the given bytes must be WebAssembly, is gzipped");
 });
 
-test("an engine without SIMD is told so", { skip: process.arch !== "x64" }, () => {
+test("an engine without SIMD gets an error that names it", { skip: process.arch !== "x64" }, () => {
   // V8 has no SIMD without these instructions of the processor
   const program = 'import("whither").then(({ init }) => init()).then(() => 0, ({ code, message }) => console.log(code, message))';
   const run = spawnSync(process.execPath, ["--no-enable-ssse3", "--no-enable-sse4-1", "-e", program], { encoding: "utf8" });
   assert.match(run.stdout, /^wasm-unavailable the WebAssembly of this engine has no SIMD: /, run.stderr);
 });
 
-test("what a promise is rejected with is told, whatever it is", async () => {
-  const told = async (value, what) => {
+test("what a promise is rejected with is in the message, whatever it is", async () => {
+  const reports = async (value, what) => {
     await fails(init({ wasm: Promise.reject(value) }), "wasm-unavailable", `the promise of it was rejected: ${what}`);
   };
-  await told(runInNewContext('new TypeError("of another realm")'), "of another realm");
-  await told("words", "words");
-  await told(Symbol("x"), "Symbol(x)");
-  await told(undefined, "undefined");
-  await told(null, "[object Null]");
-  await told(Object.create(null), "[object Object]");
+  await reports(runInNewContext('new TypeError("of another realm")'), "of another realm");
+  await reports("words", "words");
+  await reports(Symbol("x"), "Symbol(x)");
+  await reports(undefined, "undefined");
+  await reports(null, "[object Null]");
+  await reports(Object.create(null), "[object Object]");
 });
 
 test("WebAssembly that is not allowed, or does not exist", async (t) => {

@@ -12,7 +12,7 @@ function moved(scenario, samples = movement) {
   return predictor;
 }
 
-/** Everything that a predictor says. */
+/** Everything that a predictor returns. */
 function everything(predictor) {
   const { mean, deviation, times, probabilities } = predictor.arrival();
   return [
@@ -113,7 +113,7 @@ test("reset begins a new movement", () => {
   same(everything(predictor), first, "the same movement again");
 });
 
-test("a clone goes its own way", () => {
+test("a clone is independent", () => {
   const predictor = moved(small());
   const before = everything(predictor);
   const clone = predictor.clone();
@@ -147,7 +147,7 @@ for (const [name, scenario] of Object.entries({
   });
 }
 
-test("a snapshot restores the pointing model to the bit, and one that has seen nothing", () => {
+test("a snapshot restores the pointing model to the bit, and one without observations", () => {
   const targets = [{ id: "a", x: 0, y: 0, width: 50, height: 50 }, { id: "right", x: 900, y: 300, width: 50, height: 50 }];
   const predictor = moved(pointerScenario(targets));
   const restored = Predictor.restore(JSON.parse(JSON.stringify(predictor.snapshot())));

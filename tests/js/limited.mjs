@@ -1,4 +1,4 @@
-// WebAssembly whose memory ends early.
+// WebAssembly with little memory.
 import { readFileSync } from "node:fs";
 
 const bytes = readFileSync(new URL("../../dist/whither.wasm", import.meta.url));

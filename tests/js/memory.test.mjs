@@ -25,11 +25,11 @@ const targets = Array.from({ length: 21 }, (_, i) => ({
   height: 90,
 }));
 
-/** Runs `step` until memory had its chance to settle, then many times more. */
-function staysFlat(settle, times, step) {
-  for (let i = 0; i < settle; i++) step(i);
+/** Runs `step` until memory has grown as far as it should, then many times more. */
+function staysFlat(warmUp, times, step) {
+  for (let i = 0; i < warmUp; i++) step(i);
   const before = size();
-  for (let i = settle; i < settle + times; i++) step(i);
+  for (let i = warmUp; i < warmUp + times; i++) step(i);
   assert.equal(size(), before);
 }
 
@@ -47,7 +47,7 @@ test("over a million observations, in movements of a thousand", () => {
   });
 });
 
-test("over predictors that come and go, with everything that they are asked", () => {
+test("over predictors that come and go, with every call", () => {
   const scenario = pointerScenario(targets);
   staysFlat(50, 2000, () => {
     const predictor = new Predictor(scenario);

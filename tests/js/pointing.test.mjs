@@ -1,4 +1,4 @@
-// `whither/pointing`: the pointing model alone, with a WebAssembly of its own. It must say what `whither` says, to the bit.
+// `whither/pointing`: the pointing model alone, with a WebAssembly of its own. It must return what `whither` returns, to the bit.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -25,7 +25,7 @@ test("nothing works before init, even where whither is loaded", async () => {
   });
 });
 
-test("init loads once, beside that of whither", async (t) => {
+test("init loads once, besides that of whither", async (t) => {
   const compile = t.mock.method(WebAssembly, "compile");
   await Promise.all([pointing.init(), pointing.init(), whither.init()]);
   assert.equal(compile.mock.callCount(), 1);
@@ -42,7 +42,7 @@ for (const name of ["grid21", "none", "repeats", "ring12", "sizes40"]) {
   });
 }
 
-test("everything is what whither says, to the bit", () => {
+test("everything is what whither returns, to the bit", () => {
   const options = { none: 0.05 };
   assert.deepEqual(pointing.pointerScenario(targets, options), whither.pointerScenario(targets, options));
   const scenario = { ...whither.pointerScenario(targets, options), learning: { strength: 5 } };

@@ -1,4 +1,4 @@
-// In a thread of its own: WebAssembly whose memory ends early, and everything that a predictor is asked while little is left of it.
+// In a thread of its own: WebAssembly with little memory, and every call of a predictor while little is left of it.
 // Started by short-memory.test.mjs with `{ scenario, megabytes }`; answers with what went wrong.
 import { parentPort, workerData } from "node:worker_threads";
 import { initSync, pointerScenario, Predictor } from "whither";
@@ -10,7 +10,7 @@ initSync({ module: limited(megabytes) });
 const faults = [];
 const counts = { done: 0, refused: 0 };
 
-/** What a call gives; null where it is refused for want of memory. Any other error is a fault. */
+/** What a call returns; null where it is refused for lack of memory. Any other error is a fault. */
 function attempt(what, call) {
   try {
     const result = call();

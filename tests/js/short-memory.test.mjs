@@ -1,4 +1,4 @@
-// Memory that ends: what would take more than there is throws `too-large`, and the object that was asked, and every other, goes on.
+// Little memory: what would take more than there is throws `too-large`, and the object that was called, and every other, goes on.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Worker } from "node:worker_threads";

@@ -49,8 +49,8 @@ async function refuses(promise, code, path, message) {
 }
 
 test("maximum evidence finds the noise that moved it, before any init", async () => {
-  const told = [];
-  const progress = (state) => void told.push(state);
+  const states = [];
+  const progress = (state) => void states.push(state);
   const fitted = await fit(walks(60), walk, { ...noise, progress });
   const [{ path, before, after }] = fitted.constants;
   assert.deepEqual([path, before, fitted.constants.length, fitted.tracks], ["motion.noise", 9, 1, 60]);
@@ -58,8 +58,8 @@ test("maximum evidence finds the noise that moved it, before any init", async ()
   assert.equal(fitted.scenario.motion.noise, after);
   assert.deepEqual({ ...fitted.scenario, motion: { ...fitted.scenario.motion, noise: 9 } }, walk, "all else is as it was");
   assert.ok(fitted.leftOut.after < fitted.leftOut.before);
-  assert.ok(told.length > 4 && told.every(({ share, loss }) => share > 0 && share <= 1 && Number.isFinite(loss)));
-  assert.ok(told.every(({ share }, k) => k === 0 || share >= told[k - 1].share), "it never goes back");
+  assert.ok(states.length > 4 && states.every(({ share, loss }) => share > 0 && share <= 1 && Number.isFinite(loss)));
+  assert.ok(states.every(({ share }, k) => k === 0 || share >= states[k - 1].share), "it never goes back");
 });
 
 test("the pointer's scenario is learnt from, and what comes out predicts", async () => {
@@ -84,7 +84,7 @@ test("the pointer's scenario is learnt from, and what comes out predicts", async
   predictor.free();
 });
 
-test("too few tracks are told how many are needed", async () => {
+test("too few tracks are refused with the number that is needed", async () => {
   const message = (has) => `must have at least 20 tracks that enter their target, 10 for each of 2 constants, has ${has}`;
   await refuses(fit(walks(7), walk), "out-of-range", "tracks", message(7));
   await refuses(fit([], walk), "out-of-range", "tracks", message(0));
@@ -116,8 +116,8 @@ for (const [what, tracks, scenario, options, code, path, message] of cases) {
 
 test("coordinates may be missing, and names numbers", async () => {
   const named = walks(60).map((track, k) => ({ ...track, id: k, user: k % 4 }));
-  const [whole, numbered] = await Promise.all([fit(walks(60), walk, noise), fit(named, walk, noise)]);
-  assert.deepEqual(numbered, whole, "by the same users");
+  const [original, numbered] = await Promise.all([fit(walks(60), walk, noise), fit(named, walk, noise)]);
+  assert.deepEqual(numbered, original, "by the same users");
   // every fifth sample without one of its coordinates, but for the first and the last
   const holes = named.map((track) => ({
     ...track,

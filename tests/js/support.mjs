@@ -58,7 +58,7 @@ export function small(changes = {}) {
 /** A movement to the right: `[time, x, y]`. */
 export const movement = Array.from({ length: 20 }, (_, k) => [2 + 0.016 * k, 400 + 12 * k, 300 + (k % 3)]);
 
-/** Asserts numbers within `tolerance` of `1 + |expected|`; null stands for minus infinity, as in the golden cases. */
+/** Asserts numbers within `tolerance` of `1 + |expected|`; null is minus infinity, as in the golden cases. */
 export function close(found, expected, tolerance, what) {
   assert.equal(found.length, expected.length, `${what}: length`);
   for (let i = 0; i < expected.length; i++) {

@@ -116,18 +116,18 @@ impl<'a> Batch<'a> {
 
     fn measured(&self, observed: &Observed) -> Option<Linear> {
         let observation = &self.problem.scenario["observation"];
-        let seen: Vec<usize> = (0..observed.position.len()).filter(|&r| observed.position[r].is_some()).collect();
+        let present: Vec<usize> = (0..observed.position.len()).filter(|&r| observed.position[r].is_some()).collect();
         let noise = square(observed.noise.as_ref().unwrap_or(&observation["noise"]));
         let matrix = |r: usize, c: usize| match observation.get("matrix") {
             Some(matrix) => matrix[r][c].as_f64().unwrap(),
             None => f64::from(u8::from(r == c)),
         };
         let states = self.scenario.motion.states();
-        (!seen.is_empty()).then(|| {
+        (!present.is_empty()).then(|| {
             (
-                DVector::from_iterator(seen.len(), seen.iter().map(|&r| observed.position[r].unwrap())),
-                DMatrix::from_fn(seen.len(), states, |r, c| matrix(seen[r], c)),
-                DMatrix::from_fn(seen.len(), seen.len(), |r, c| noise[(seen[r], seen[c])]),
+                DVector::from_iterator(present.len(), present.iter().map(|&r| observed.position[r].unwrap())),
+                DMatrix::from_fn(present.len(), states, |r, c| matrix(present[r], c)),
+                DMatrix::from_fn(present.len(), present.len(), |r, c| noise[(present[r], present[c])]),
             )
         })
     }
@@ -183,16 +183,17 @@ impl Stack {
     /// The endpoint made independent of the start: what lies between keeps its density given both.
     fn bridge(&mut self, destination: &Destination) {
         let (s, l, n) = (self.states, destination.mean.len(), self.mean.len());
-        let ends = DMatrix::from_fn(s + l, n, |r, c| f64::from(u8::from(c == if r < s { r } else { n - s + r - s })));
-        let between = &ends * &self.covariance * ends.transpose();
-        let gain = &self.covariance * ends.transpose() * between.clone().try_inverse().unwrap();
+        let endpoints =
+            DMatrix::from_fn(s + l, n, |r, c| f64::from(u8::from(c == if r < s { r } else { n - s + r - s })));
+        let between = &endpoints * &self.covariance * endpoints.transpose();
+        let gain = &self.covariance * endpoints.transpose() * between.clone().try_inverse().unwrap();
         let mut wanted = DVector::zeros(s + l);
         wanted.rows_mut(0, s).copy_from(&self.mean.rows(0, s));
         wanted.rows_mut(s, l).copy_from_slice(&destination.mean);
         let mut apart = DMatrix::zeros(s + l, s + l);
         apart.view_mut((0, 0), (s, s)).copy_from(&self.covariance.view((0, 0), (s, s)));
         apart.view_mut((s, s), (l, l)).copy_from(&destination.kind.covariance());
-        self.mean = &self.mean + &gain * (wanted - &ends * &self.mean);
+        self.mean = &self.mean + &gain * (wanted - &endpoints * &self.mean);
         self.covariance = &self.covariance + &gain * (apart - between) * gain.transpose();
     }
 

@@ -43,7 +43,7 @@ fn observe(predictor: &mut Predictor, k: u32) {
 }
 
 /// The probabilities, that of none of them, and the log likelihoods.
-fn beliefs(predictor: &mut Predictor) -> Vec<f64> {
+fn posterior(predictor: &mut Predictor) -> Vec<f64> {
     let mut all = predictor.probabilities().to_vec();
     all.push(predictor.none());
     all.extend(predictor.log_likelihoods());
@@ -55,7 +55,7 @@ fn beliefs(predictor: &mut Predictor) -> Vec<f64> {
 
 /// Destinations that come and go over the edge of a block leave what a list of those that are there gives.
 #[test]
-fn what_is_believed_does_not_depend_on_how_the_destinations_came_about() {
+fn the_posterior_does_not_depend_on_how_the_destinations_came_about() {
     let mut random = Random::new(3);
     for (method, sizes, speeds) in [
         ("pseudoObservation", &[60.0][..], false),
@@ -91,7 +91,7 @@ fn what_is_believed_does_not_depend_on_how_the_destinations_came_about() {
                 }
                 let mut fresh = predictor(&scenario(method, 0.1, &list));
                 (0..=k).for_each(|k| observe(&mut fresh, k));
-                let difference = relative(&beliefs(&mut edited), &beliefs(&mut fresh));
+                let difference = relative(&posterior(&mut edited), &posterior(&mut fresh));
                 assert!(difference < 1e-12, "{method} of {count}, {sizes:?}, at {k}: {difference:e}");
             }
         }
@@ -100,7 +100,7 @@ fn what_is_believed_does_not_depend_on_how_the_destinations_came_about() {
 
 /// Only ratios of priors matter, however large or small they are.
 #[test]
-fn priors_of_any_scale_say_the_same() {
+fn priors_of_any_scale_give_the_same_posterior() {
     let mut random = Random::new(4);
     for (method, none) in [("pseudoObservation", 0.0), ("pseudoObservation", 0.2), ("pointing", 0.2)] {
         for count in [1, 4, 5, 8, 9] {
@@ -124,7 +124,7 @@ fn priors_of_any_scale_say_the_same() {
                 observe(&mut plain, k);
                 for other in &mut others {
                     observe(other, k);
-                    let difference = relative(&beliefs(other), &beliefs(&mut plain));
+                    let difference = relative(&posterior(other), &posterior(&mut plain));
                     assert!(difference < 1e-12, "{method} of {count} at {k}: {difference:e}");
                     // the small ones keep their digits
                     for (p, expected) in other.probabilities().iter().zip(plain.probabilities()) {
@@ -142,7 +142,7 @@ fn priors_of_any_scale_say_the_same() {
 /// Priors that are learnt in mid-movement against the same priors given from the start: few destinations in one block and a
 /// broken one, and so many on a line that those out of reach are left out, in their own order.
 #[test]
-fn learnt_priors_are_in_force_at_once() {
+fn learnt_priors_apply_at_once() {
     let few: Vec<Json> = (0..9).map(|i| json!({ "id": format!("d{i}"), "center": [100 * i], "size": 60 })).collect();
     let many: Vec<Json> = (0..5003).map(|i| json!({ "id": format!("d{i}"), "center": [90 * i], "size": 60 })).collect();
     for list in [few, many] {
@@ -172,13 +172,13 @@ fn learnt_priors_are_in_force_at_once() {
                 let (time, position) = track(k);
                 given.observe(time, &position).unwrap();
             }
-            let difference = relative(&beliefs(&mut learning), &beliefs(&mut given));
+            let difference = relative(&posterior(&mut learning), &posterior(&mut given));
             assert!(difference < 1e-12, "{} destinations at {k}: {difference:e}", list.len());
         }
     }
 }
 
-/// The order in which destinations are given says nothing: sizes that follow one another stand as they are, sizes in turns are
+/// The order in which destinations are given does not matter: runs of one size are kept in order, alternating sizes are
 /// brought together.
 #[test]
 fn destinations_in_another_order_have_the_same_probabilities() {

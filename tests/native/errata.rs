@@ -1,4 +1,4 @@
-//! The errors in the printed papers (design, 1.2): what is printed beside what is right, each against something that does not
+//! The errors in the printed papers (design, 1.2): what is printed and what is right, each against something that does not
 //! come from the formula.
 
 use crate::support::predictor;
@@ -27,17 +27,17 @@ fn algorithm2(b: f64, sign: f64) -> f64 {
     let ((f, m, q), (f_rest, m_rest, q_rest)) = (accelerated(step, b), accelerated(rest, b));
     let (f_all, m_all, q_all) = accelerated(step + rest, b);
     // (12)
-    let seen = f_all.rows(0, 1).into_owned();
-    let predicted = (&seen * &sigma * seen.transpose())[0] + q_all[(0, 0)] + spread;
-    let gain = &sigma * seen.transpose() / predicted;
-    let smoothed = &mu + &gain * (target - (&seen * &mu)[0] - m_all[0]);
-    let smoothed_covariance = &sigma - &gain * &seen * &sigma;
+    let selection = f_all.rows(0, 1).into_owned();
+    let predicted = (&selection * &sigma * selection.transpose())[0] + q_all[(0, 0)] + spread;
+    let gain = &sigma * selection.transpose() / predicted;
+    let smoothed = &mu + &gain * (target - (&selection * &mu)[0] - m_all[0]);
+    let smoothed_covariance = &sigma - &gain * &selection * &sigma;
     // (13)
-    let seen = f_rest.rows(0, 1).into_owned();
-    let gain = &q * seen.transpose() / ((&seen * &q * seen.transpose())[0] + q_rest[(0, 0)] + spread);
-    let inner = (&seen * (&f * &smoothed + sign * &m))[0] + m_rest[0];
+    let selection = f_rest.rows(0, 1).into_owned();
+    let gain = &q * selection.transpose() / ((&selection * &q * selection.transpose())[0] + q_rest[(0, 0)] + spread);
+    let inner = (&selection * (&f * &smoothed + sign * &m))[0] + m_rest[0];
     let mean = &f * &smoothed + &m + &gain * (target - inner);
-    let left = DMatrix::identity(2, 2) - &gain * &seen;
+    let left = DMatrix::identity(2, 2) - &gain * &selection;
     let onward = &left * &f;
     let covariance = &onward * smoothed_covariance * onward.transpose() + left * q;
     log_density(&dvector![3.5 - mean[0]], &dmatrix![covariance[(0, 0)] + noise])

@@ -1,4 +1,4 @@
-//! `initial.evidence`: what the first observation says of the destination, `p(y_1 | D_i, T)` in Liang (5), counts in every method.
+//! `initial.evidence`: the evidence of the first observation, `p(y_1 | D_i, T)` in Liang (5), counts in every method.
 
 use crate::batch::Batch;
 use crate::problem::{Problem, apart, choices, random};
@@ -29,7 +29,7 @@ fn walk(method: &str, evidence: bool) -> Predictor {
 
 /// By hand: given a = 5 the start is N(10/3, 4/3), so y_1 = 3 is of N(10/3, 7/3); given -5 of N(-10/3, 7/3).
 #[test]
-fn a_start_near_a_destination_speaks_for_it() {
+fn a_start_near_a_destination_makes_it_more_probable() {
     let log = |mean: f64| -0.5 * (2.0 * std::f64::consts::PI * 7.0 / 3.0).ln() - (3.0 - mean).powi(2) / (14.0 / 3.0);
     let expected = [log(-10.0 / 3.0), log(10.0 / 3.0)];
     for method in PSEUDO {
@@ -64,8 +64,8 @@ fn a_start_near_a_destination_speaks_for_it() {
 proptest! {
     #![proptest_config(random(150))]
 
-    /// Within a family the methods stay the same, from the first observation on; of the independent endpoint the first
-    /// observation says the same whatever the destination.
+    /// Within a family the methods stay the same, from the first observation on; with an endpoint
+    /// independent of the start the first observation is equally likely for every destination.
     #[test]
     fn the_families_count_it_alike(choice in choices()) {
         let default = choice.problem();
@@ -81,7 +81,7 @@ proptest! {
         }
     }
 
-    /// `log p(y_1:k | D_i)` and the states are what the joint Gaussian of all observations and the endpoint says.
+    /// `log p(y_1:k | D_i)` and the states are those of the joint Gaussian of all observations and the endpoint.
     #[test]
     fn the_evidence_is_the_batch_density(mut choice in choices()) {
         choice.steps = choice.steps.min(4);
@@ -143,7 +143,7 @@ fn destinations_that_come_later_have_it_too() {
     }
 }
 
-/// What the golden cases state is what the scenario says without the key, and with it false.
+/// The golden cases hold for the scenario without the key, and with it false.
 #[test]
 fn by_default_the_first_observation_does_not_count() {
     let case = crate::support::golden("cv2d-position");

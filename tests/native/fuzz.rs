@@ -22,7 +22,7 @@ impl Draw {
         self.unit() < share
     }
 
-    /// A number as nobody would choose it.
+    /// An extreme number, one that is refused, or a random one.
     fn wild(&mut self) -> f64 {
         let edge = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e-50, 1e-20, 1e12, 1e20, 1e49, -1e49, 1e50, 1e51, 1e200, f64::MAX];
         let none = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -148,7 +148,7 @@ impl Draw {
         destination
     }
 
-    /// One call; what it gives back does not matter.
+    /// One call; what it returns does not matter.
     fn act(&mut self, predictor: &mut Predictor, time: &mut f64) -> whither::Result<()> {
         let id = format!("d{}", self.below(6));
         match self.below(24) {
@@ -264,7 +264,7 @@ fn what_once_broke_a_predictor_does_not() {
 
 #[test]
 fn nothing_breaks_a_predictor() {
-    let setting = |name: &str| std::env::var(name).ok().map(|text| text.parse::<u64>().expect("a whole number"));
+    let setting = |name: &str| std::env::var(name).ok().map(|text| text.parse::<u64>().expect("an integer"));
     if let Some(seed) = setting("WHITHER_FUZZ_SEED") {
         run(seed);
         return;

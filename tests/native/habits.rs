@@ -48,7 +48,7 @@ fn what_is_long_ago_is_forgotten() {
 }
 
 #[test]
-fn the_last_choice_tells_the_next_one() {
+fn the_last_choice_predicts_the_next_one() {
     let mut predictor = predictor(&scenario(json!({ "strength": 4, "afterLast": 2 })));
     for id in ["a", "b", "a"] {
         predictor.chosen(id).unwrap();
@@ -65,7 +65,7 @@ fn the_last_choice_tells_the_next_one() {
 }
 
 #[test]
-fn a_destination_that_comes_back_brings_its_count() {
+fn a_destination_added_again_has_its_count() {
     let mut predictor = predictor(&scenario(json!({ "strength": 4 })));
     predictor.chosen("b").unwrap();
     let before = predictor.probabilities().to_vec();

@@ -49,17 +49,17 @@ proptest! {
         destinations[1]["prior"] = json!(prior * (1.0 - share));
         destinations.push(half);
         for method in ["pseudoObservation", "algorithm1", "bridging", "singleFilter"] {
-            let whole = problem.followed(method).probabilities().to_vec();
+            let unsplit = problem.followed(method).probabilities().to_vec();
             let mut parts = split.followed(method).probabilities().to_vec();
             let half = parts.pop().unwrap();
-            let expected = whole[1] * share;
+            let expected = unsplit[1] * share;
             prop_assert!((half - expected).abs() <= 1e-12, "{method}");
             parts[1] += half;
-            prop_assert!(relative(&parts, &whole) < 1e-12, "{method}");
+            prop_assert!(relative(&parts, &unsplit) < 1e-12, "{method}");
         }
     }
 
-    /// Everything moved by one vector: nothing changes, where the model has no place of its own.
+    /// Everything moved by one vector: nothing changes, where the model has no fixed point of its own.
     #[test]
     fn space_may_be_shifted(mut choice in choices(), seed in any::<u64>()) {
         choice.matrix = false;
@@ -92,7 +92,7 @@ proptest! {
         }
     }
 
-    /// `log p(y_2:k | y_1, D_i)` is what the joint Gaussian of all observations and the endpoint says, stacked.
+    /// `log p(y_2:k | y_1, D_i)` is that of the stacked joint Gaussian of all observations and the endpoint.
     #[test]
     fn the_evidence_is_the_batch_density(choice in choices()) {
         let problem = choice.problem();

@@ -34,7 +34,7 @@ fn later(id: &str, x: i32, y: i32) -> Json {
     json!({ "id": id, "center": [x, y], "size": 2, "arrival": { "type": "discrete", "times": [2, 6], "weights": [1, 2] } })
 }
 
-/// The movement: time, position; an axis is missing once, a time is there twice.
+/// The movement: time, position; an axis is missing once, a time is repeated.
 const TRACK: [(f64, [Option<f64>; 2]); 7] = [
     (100.0, [Some(0.0), Some(0.0)]),
     (100.3, [Some(1.1), Some(0.4)]),
@@ -51,7 +51,7 @@ fn follow(predictor: &mut Predictor, track: &[(f64, [Option<f64>; 2])]) {
     }
 }
 
-/// Everything that a predictor says, as one list.
+/// Everything that a predictor returns, as one list.
 fn outputs(predictor: &mut Predictor, until: f64) -> Vec<f64> {
     let mut all = predictor.probabilities().to_vec();
     all.push(predictor.none());
@@ -175,9 +175,9 @@ fn what_accumulates_refuses_other_destinations_in_mid_movement_only() {
     }
 }
 
-/// A model that knows the destination keeps a filter for each: they may go, change places, priors and sizes.
+/// A model that depends on the destination has a filter for each: they may be removed, and change place, prior and size.
 #[test]
-fn a_model_that_knows_the_destination_lets_them_go_but_not_come() {
+fn destinations_that_the_model_depends_on_can_be_removed_but_not_added() {
     let knowing = json!({
         "/motion": { "type": "meanReverting", "dimensions": 2, "noise": [2, 3], "rate": 0.4 },
         "/initial": null,
@@ -229,7 +229,7 @@ fn a_reset_predictor_is_a_new_one() {
 }
 
 #[test]
-fn a_clone_goes_its_own_way() {
+fn a_clone_is_independent() {
     for method in METHODS {
         let mut one = predictor(&scenario(method));
         follow(&mut one, &TRACK[..3]);
@@ -245,17 +245,17 @@ fn a_clone_goes_its_own_way() {
     }
 }
 
-/// What is said does not depend on what was asked before.
+/// What is returned does not depend on earlier queries.
 #[test]
-fn asking_changes_nothing() {
+fn queries_change_nothing() {
     for method in METHODS {
-        let (mut asked, mut silent) = (predictor(&scenario(method)), predictor(&scenario(method)));
+        let (mut queried, mut plain) = (predictor(&scenario(method)), predictor(&scenario(method)));
         for observation in TRACK.chunks(1) {
-            follow(&mut asked, observation);
-            follow(&mut silent, observation);
-            outputs(&mut asked, 102.1);
+            follow(&mut queried, observation);
+            follow(&mut plain, observation);
+            outputs(&mut queried, 102.1);
         }
-        assert_eq!(bits(&outputs(&mut asked, 102.1)), bits(&outputs(&mut silent, 102.1)), "{method}");
+        assert_eq!(bits(&outputs(&mut queried, 102.1)), bits(&outputs(&mut plain, 102.1)), "{method}");
     }
 }
 
@@ -302,9 +302,9 @@ fn a_restored_predictor_is_the_same_to_the_bit() {
 fn a_damaged_snapshot_is_refused() {
     let small = json!({ "/motion/noise": 2, "/quadrature/points": 3, "/destinations": [place("a", 10, 0), corner("b", -1, 5, 2)] });
     for method in ["pseudoObservation", "algorithm1", "bridging"] {
-        let mut whole = predictor(&change(&scenario(method), &small));
-        follow(&mut whole, &TRACK[..3]);
-        let snapshot = whole.snapshot();
+        let mut original = predictor(&change(&scenario(method), &small));
+        follow(&mut original, &TRACK[..3]);
+        let snapshot = original.snapshot();
         let text = serde_json::to_string(&snapshot).unwrap().into_bytes();
         let mut refused = 0;
         let mut damaged = |text: &[u8], what: &str| {
@@ -314,7 +314,7 @@ fn a_damaged_snapshot_is_refused() {
                     assert_eq!(error.code(), Code::BadSnapshot, "{method} {what}: {error}");
                     refused += 1;
                 }
-                // the last digits of a number may say the same number
+                // other last digits may be the same number
                 Ok(restored) => assert_eq!(restored.snapshot(), snapshot, "{method} {what}"),
             }
         };

@@ -1,4 +1,4 @@
-//! Tests of the whole library, natively: golden cases, identities, errors, the life of a predictor.
+//! Tests of the library through its public interface, natively: golden cases, identities, errors, the life of a predictor.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::type_complexity)]
 
 mod batch;

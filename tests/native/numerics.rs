@@ -169,7 +169,7 @@ fn samples_far_from_every_target_leave_probabilities_finite() {
     }
 }
 
-/// One sample of 10^5 px among others leaves probabilities that the next samples put right.
+/// One sample of 10^5 px among others: the next samples correct the probabilities.
 #[test]
 fn an_outlier_is_forgotten() {
     for method in METHODS {
@@ -198,20 +198,20 @@ fn the_pointing_model_survives_an_outlier() {
     let targets = [target("a", 100.0), target("b", 500.0), target("c", 900.0)];
     let options = PointerOptions { none: 0.05 };
     let mut predictor = Predictor::new(&pointer_scenario(&targets, options).unwrap());
-    let mut see = |k: i32, x: f64| {
+    let mut observe = |k: i32, x: f64| {
         predictor.observe(0.016 * f64::from(k), &[x, 100.0]).unwrap();
         check_all(&mut predictor).unwrap_or_else(|error| panic!("at {k}: {error}"));
         predictor.best().unwrap().id
     };
     let glide = |k: i32| 150.0 + 4.0 * f64::from(k);
     for k in 0..20 {
-        see(k, glide(k));
+        observe(k, glide(k));
     }
-    see(20, 1e5);
-    let last = (21..80).map(|k| see(k, glide(k))).last();
+    observe(20, 1e5);
+    let last = (21..80).map(|k| observe(k, glide(k))).last();
     assert_eq!(last.as_deref(), Some("b"));
     for k in 80..380 {
-        see(k, 1e5 * f64::from(k).sin());
+        observe(k, 1e5 * f64::from(k).sin());
     }
 }
 

@@ -66,7 +66,7 @@ fn in_space_a_turn_about_any_axis_changes_nothing() {
 }
 
 #[test]
-fn on_a_line_it_tells_left_from_right() {
+fn on_a_line_it_distinguishes_left_from_right() {
     let mut scenario = golden("pointing-grid21")["scenario"].clone();
     scenario["motion"]["dimensions"] = json!(1);
     scenario["destinations"] = json!([
@@ -81,7 +81,7 @@ fn on_a_line_it_tells_left_from_right() {
 }
 
 #[test]
-fn destinations_come_move_and_go_in_mid_movement() {
+fn destinations_are_added_moved_and_removed_in_mid_movement() {
     let case = golden("pointing-sizes40");
     let way: Vec<_> = observations(&case).iter().map(|row| (row[0], row[1..].to_vec())).collect();
     let mut full = follow(&case["scenario"], &way);
@@ -200,7 +200,7 @@ fn the_time_to_the_entry_follows_its_constants() {
     scenario["pointing"]["remaining"] = entry;
     let mut with = predictor(&scenario);
     with.observe(0.0, &[300.0, 300.0]).unwrap();
-    assert_eq!(with.remaining(), None, "nothing can be said before it moves");
+    assert_eq!(with.remaining(), None, "there is no estimate before it moves");
     with.observe(0.016, &[310.0, 300.0]).unwrap();
     let remaining = with.remaining().unwrap();
     let found = [remaining.mean, remaining.low, remaining.high];
@@ -257,7 +257,7 @@ fn from_log_likelihoods(predictor: &mut Predictor, scenario: &Json, start: &[f64
 }
 
 #[test]
-fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
+fn the_hot_loop_agrees_with_one_destination_at_a_time() {
     let base = serde_json::to_value(
         pointer_scenario(
             &[PointerTarget { id: "a".to_owned(), x: 0.0, y: 0.0, width: 50.0, height: 50.0 }],
@@ -272,14 +272,14 @@ fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
         let mut draw = Draw(u64::from(seed).wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
         let d = 1 + seed as usize % 3;
         let (count, sizes) = (3 + seed as usize, [1, 3, 1000][seed as usize / 3 % 3]);
-        // some worlds are much wider than a movement reaches
-        let world = if seed % 5 == 0 { 1e5 } else { 900.0 };
+        // some layouts are much wider than a movement reaches
+        let extent = if seed % 5 == 0 { 1e5 } else { 900.0 };
         let kinds: Vec<Vec<f64>> = (0..sizes.min(count)).map(|_| draw.list(d, 15.0, 90.0)).collect();
         let mut scenario = base.clone();
         scenario["motion"]["dimensions"] = json!(d);
         scenario["none"] = json!(if seed % 2 == 0 { 0.0 } else { 0.2 });
         let destination = |i: usize, draw: &mut Draw| {
-            let center = draw.list(d, 0.0, world);
+            let center = draw.list(d, 0.0, extent);
             json!({ "id": format!("d{i}"), "center": center, "size": kinds[i % kinds.len()], "prior": draw.within(0.2, 2.0) })
         };
         let mut destinations: Vec<Json> = (0..count).map(|i| destination(i, &mut draw)).collect();
@@ -304,7 +304,7 @@ fn the_hot_loop_says_what_is_said_one_destination_at_a_time() {
     assert!(worst > 0.0, "compared with itself");
 }
 
-/// The products of what directions are measured with come close to the ends of what numbers can tell.
+/// The products of what directions are measured with come close to the limits of floating point.
 #[test]
 fn directions_may_be_as_wide_and_as_narrow_as_numbers_are() {
     let base = serde_json::to_value(
@@ -342,7 +342,7 @@ fn directions_may_be_as_wide_and_as_narrow_as_numbers_are() {
 }
 
 #[test]
-fn a_movement_beyond_all_numbers_leaves_what_is_believed_at_its_prior() {
+fn a_movement_beyond_all_numbers_keeps_the_posterior_at_the_prior() {
     let case = golden("pointing-ring12");
     for (far, noise) in [(1e12, 0.5), (1e25, 0.5), (1e31, 1e22), (1e48, 1e28), (1e49, 0.5)] {
         let mut scenario = case["scenario"].clone();

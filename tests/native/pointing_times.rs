@@ -177,10 +177,10 @@ fn the_papers_methods_count_equal_times_as_observations() {
     assert!(crate::support::relative(twice.probabilities(), once.probabilities()) < 1e-9);
 }
 
-/// From the first sample on it rests on an icon: after half a second the icon is above its prior, and the likelier the longer it
+/// It rests on an icon from the first sample on: after half a second the icon is above its prior, and the likelier the longer it
 /// rests.
 #[test]
-fn a_pointer_that_rests_may_mean_what_it_rests_on() {
+fn a_pointer_at_rest_raises_the_icon_under_it() {
     for (which, tremor, offset) in
         [(10, 0.0, [0.0, 0.0]), (10, 0.4, [0.0, 0.0]), (0, 0.4, [20.0, -20.0]), (20, 0.0, [35.0, 0.0])]
     {

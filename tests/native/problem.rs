@@ -46,7 +46,7 @@ pub const KINDS: [&str; 7] = [
     "custom",
 ];
 
-/// So many random cases, the same in every run unless `PROPTEST_RNG_SEED` asks for others.
+/// So many random cases, the same in every run unless `PROPTEST_RNG_SEED` selects others.
 pub fn random(cases: u32) -> Config {
     let default = Config::default();
     let rng_seed = match default.rng_seed {

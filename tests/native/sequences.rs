@@ -13,8 +13,8 @@ fn airliner(mean: &[f64], covariance: &[Vec<f64>]) -> Json {
     })
 }
 
-/// The joint density of both ends where they are independent, and where they are a Markov sequence's.
-fn airliner_ends() -> [(Vec<f64>, Vec<Vec<f64>>); 2] {
+/// The joint density of origin and destination where they are independent, and where they are a Markov sequence's.
+fn airliner_endpoints() -> [(Vec<f64>, Vec<Vec<f64>>); 2] {
     let variance = [1000.0, 1000.0, 10.0, 10.0];
     let diagonal = |i: usize, j: usize| if i == j { variance[i] } else { 0.0 };
     let independent = (0..8).map(|i| (0..8).map(|j| if i == j { variance[i % 4] } else { 0.0 }).collect()).collect();
@@ -51,12 +51,13 @@ fn airliner_ends() -> [(Vec<f64>, Vec<Vec<f64>>); 2] {
 #[test]
 fn the_airliners_error_ratio_is_the_papers() {
     // 368.13 in the paper, from 1000 runs; 359.5 and 368.2 from two other implementations
-    let [mut directed, mut markov] = airliner_ends().map(|(mean, covariance)| sequence(&airliner(&mean, &covariance)));
+    let [mut directed, mut markov] =
+        airliner_endpoints().map(|(mean, covariance)| sequence(&airliner(&mean, &covariance)));
     assert!(markov.is_markov(DEFAULT_TOLERANCE).unwrap());
     assert!(!directed.is_markov(DEFAULT_TOLERANCE).unwrap() && directed.is_reciprocal(DEFAULT_TOLERANCE).unwrap());
     let runs = 1000;
     let trajectories = directed.sample(2018, runs).unwrap();
-    // the noise of the measurements: positions of sequences that stand still
+    // the noise of the measurements: positions of sequences without motion
     let still = json!({
         "motion": { "type": "brownian", "dimensions": 2, "noise": 1 }, "timeStep": 1, "steps": 1,
         "pinnedMean": [0, 0, 0, 0], "observation": { "noise": 1 },
@@ -97,7 +98,7 @@ fn the_longest_sequence() {
         assert!((state.mean[0] - 2.0 * step as f64).abs() < 20.0, "{step}: {}", state.mean[0]);
         assert!(state.covariance[(0, 0)] < 100.0);
     }
-    // half of the way is done in half of the time, and the end is where it was said to be
+    // half of the way is done in half of the time, and the destination is where it was pinned
     assert!((sequence.state(50_000).unwrap().mean[1] - 1.0).abs() < 0.3);
     assert!((sequence.destination().mean[0] - 200_000.0).abs() < 20.0);
     let drawn = sequence.sample(1, 1).unwrap();

@@ -51,7 +51,7 @@ fn a_random_walk_by_hand() {
 
 /// A vessel at its first observation: with the endpoint independent of the start nothing is known of its velocity yet.
 #[test]
-fn the_start_of_a_vessel_is_what_the_initial_density_says() {
+fn the_state_of_a_vessel_at_the_start_is_the_initial_density() {
     for method in ["bridging", "singleFilter"] {
         let mut vessel = predictor(&json!({
             "method": method, "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 0.1 },
@@ -69,7 +69,7 @@ fn the_start_of_a_vessel_is_what_the_initial_density_says() {
     }
 }
 
-/// One arrival time and the whole state as endpoint: the conditionally Markov sequence with independent ends.
+/// One arrival time and the complete state as endpoint: the conditionally Markov sequence with independent endpoints.
 #[test]
 fn bridging_and_the_single_filter_are_the_conditionally_markov_sequence() {
     let (steps, step) = (12, 0.5);
@@ -154,7 +154,7 @@ proptest! {
 proptest! {
     #![proptest_config(random(40))]
 
-    /// What the joint Gaussian of all states and observations says, for every method, now and later.
+    /// The states given by the joint Gaussian of all states and observations, for every method, now and later.
     #[test]
     fn states_are_those_of_the_joint_gaussian(mut choice in choices(), later in 0.0..3.0f64) {
         choice.steps = choice.steps.min(5);

@@ -38,7 +38,7 @@ pub fn scenario_of(case: &Json, method: &str) -> Json {
     scenario
 }
 
-/// A value of ours from JSON, with the numbers that JSON cannot say.
+/// A value of ours from JSON, with the numbers that JSON does not have.
 pub fn value(json: &Json) -> Value {
     fn named(value: &mut Value) {
         match value {

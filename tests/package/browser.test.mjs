@@ -42,7 +42,7 @@ test("without a bundler", async (t) => {
     assertPredicted(await open(main, { headers: policy("'wasm-unsafe-eval'") }));
   });
 
-  await t.test("without 'wasm-unsafe-eval' init rejects and says so", async () => {
+  await t.test("without 'wasm-unsafe-eval' init rejects with an error that names it", async () => {
     // Chromium itself may report the refusal on the console.
     const outcome = await open(main, { headers: policy(""), expected: /Content Security Policy/ });
     assert.deepEqual([outcome.whither, outcome.code], [true, "wasm-unavailable"]);
@@ -51,13 +51,13 @@ test("without a bundler", async (t) => {
 
   await t.test("whither/slim fetches an address", async () => assertPredicted(await open(slim('"./whither.wasm"'))));
 
-  await t.test("an address that answers 404 is told", async () => {
+  await t.test("an address that answers 404 is reported", async () => {
     const outcome = await open(slim('"./missing.wasm"'), { expected: /404/ });
     assert.deepEqual([outcome.whither, outcome.code], [true, "wasm-unavailable"]);
     assert.match(outcome.message, /missing\.wasm.* 404/);
   });
 
-  await t.test("an address that answers with a page is told", async () => {
+  await t.test("an address that answers with a page is reported", async () => {
     const outcome = await open(slim('"./no-such-page.html"'));
     assert.deepEqual([outcome.whither, outcome.code], [true, "wasm-unavailable"]);
     assert.match(outcome.message, /no-such-page\.html must be WebAssembly, is an HTML page/);

@@ -86,7 +86,7 @@ test("the package", async (t) => {
   });
 
   for (const [file, bytes] of Object.entries({ "whither.wasm": "bytes.js", "pointing.wasm": "pointing-bytes.js" })) {
-    await t.test(`has the same ${file} inside as beside`, async () => {
+    await t.test(`has the same ${file} inside JavaScript as in a file of its own`, async () => {
       const { base64 } = await import(join(installed, "dist", bytes));
       assert.ok(gunzipSync(Buffer.from(base64, "base64")).equals(read(`dist/${file}`)));
     });

@@ -1,4 +1,4 @@
-// The pages that `npm run docs` writes: what a newcomer sees first.
+// The pages that `npm run docs` writes: what a newcomer reads first.
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
@@ -24,7 +24,7 @@ test("the front page of the interface's documentation", async (t) => {
     }
   });
 
-  await t.test("begins with a program that does what it says", async () => {
+  await t.test("begins with a program that prints what its comment states", async () => {
     const [, program] = readFileSync(join(root, "docs/interface.md"), "utf8").match(/^```ts\n(.*?)^```/ms);
     write(folder, "front.mjs", program);
     const { code, output } = await capture("node", ["front.mjs"], { cwd: folder });

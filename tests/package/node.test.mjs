@@ -53,7 +53,7 @@ test("in Node", async (t) => {
     });
   }
 
-  await t.test("an import does nothing: no request, no compilation, nothing of the platform is asked for or made", async () => {
+  await t.test("an import does nothing: no request, no compilation, nothing of the platform is used or made", async () => {
     // The language itself may be used: classes are made, and an error is one that extends another.
     const language = ["Object", "Function", "Array", "String", "Symbol", "Error", "Promise", "Reflect", "globalThis", "undefined"];
     const text = `const touched = [];
@@ -74,28 +74,28 @@ test("in Node", async (t) => {
     assert.ok(watched > 100, `${watched} globals were watched`);
   });
 
-  await t.test("without WebAssembly every way to load rejects, and the process lives", async () => {
-    const text = `const told = [];
-      const tell = (error) => told.push([error?.name, error?.code, error?.message].join());
+  await t.test("without WebAssembly every way to load rejects, and the process goes on", async () => {
+    const text = `const reported = [];
+      const report = (error) => reported.push([error?.name, error?.code, error?.message].join());
       for (const entry of ["whither", "whither/slim", "whither/pointing"]) {
         const { init, initSync } = await import(entry);
-        await init().catch(tell);
-        await init({ wasm: "http://localhost:1/whither.wasm" }).catch(tell);
-        await init({ wasm: new Uint8Array(8) }).catch(tell);
-        try { initSync({ module: new Uint8Array(8) }); } catch (error) { tell(error); }
+        await init().catch(report);
+        await init({ wasm: "http://localhost:1/whither.wasm" }).catch(report);
+        await init({ wasm: new Uint8Array(8) }).catch(report);
+        try { initSync({ module: new Uint8Array(8) }); } catch (error) { report(error); }
       }
       const { fit } = await import("whither/study");
-      await fit([], {}).catch(tell);
-      console.log(JSON.stringify(told));`;
+      await fit([], {}).catch(report);
+      console.log(JSON.stringify(reported));`;
     write(folder, "jitless.mjs", text);
     const { code, output } = await capture("node", ["--jitless", "jitless.mjs"], { cwd: folder });
     assert.equal(code, 0, output);
-    const told = JSON.parse(output.trim().split("\n").at(-1)); // V8 warns of the flag
+    const reported = JSON.parse(output.trim().split("\n").at(-1)); // V8 warns of the flag
     const expected = "WhitherError,wasm-unavailable,WebAssembly does not exist here";
-    assert.deepEqual(told, Array.from({ length: 13 }, () => expected));
+    assert.deepEqual(reported, Array.from({ length: 13 }, () => expected));
   });
 
-  await t.test("an error that nobody catches prints a few lines, and with source maps the place in js/", async () => {
+  await t.test("an uncaught error prints a few lines, and with source maps the place in js/", async () => {
     const uses = {
       "by Rust": 'await init(); new Predictor({ motion: 1 });',
       "by TypeScript": 'await init(); new Predictor(() => 1);',
@@ -144,13 +144,13 @@ test("in Node", async (t) => {
     assert.equal(same, true);
   });
 
-  await t.test("init from an address that answers 404 says so", async () => {
+  await t.test("init from an address that answers 404 reports it", async () => {
     const { whither, code, message } = await refused(`{ wasm: "${server.url}missing.wasm" }`);
     assert.deepEqual([whither, code], [true, "wasm-unavailable"]);
     assert.match(message, /missing\.wasm answered with status 404/);
   });
 
-  await t.test("init from an address that answers with a page says so", async () => {
+  await t.test("init from an address that answers with a page reports it", async () => {
     const { whither, code, message } = await refused(`{ wasm: "${server.url}page.html" }`);
     assert.deepEqual([whither, code], [true, "wasm-unavailable"]);
     assert.match(message, /page\.html must be WebAssembly, is an HTML page/);

@@ -43,7 +43,7 @@ test("the README's code", async (t) => {
   // the other package that the README names
   symlinkSync(join(root, "node_modules/proj4"), join(folder, "node_modules/proj4"), "junction");
   for (const [name, program] of Object.entries({ inNode, projecting, learning })) {
-    await t.test(`in Node prints what its comments say: ${name}`, async () => {
+    await t.test(`in Node prints what its comments state: ${name}`, async () => {
       write(folder, `${name}.mjs`, program);
       const { code, output } = await capture("node", [`${name}.mjs`], { cwd: folder });
       assert.equal(code, 0, output);
@@ -117,7 +117,7 @@ async function onPages(folder, entry) {
       await tab.goto(server.url, { waitUntil: "networkidle" });
     };
 
-    /** A minimum-jerk movement at the pace of a hand, as much of it as `to` says; gives what was best and which icons were lit after each sample. */
+    /** A minimum-jerk movement at the pace of a hand, the share `to` of it; returns what was best and which icons were lit after each sample. */
     const move = async (from, [x, y], to = 1) => {
       const shown = [];
       for (let k = 0; k <= 40 * to; k++) {
@@ -207,14 +207,14 @@ async function onPages(folder, entry) {
       // past the last icon on the way up, and back: sure at first, and then less and less
       const shown = [...(await move(start, last, 0.7)), ...(await move([823, 424], [700, 600])), ...(await move([700, 600], [500, 420]))];
       let lit = [];
-      const seen = { kept: 0, waited: 0 };
+      const counted = { kept: 0, waited: 0 };
       for (const { best, lit: now } of shown) {
         const enough = lit.includes(best.id) ? 0.5 : 0.8;
-        if (best.probability >= 0.5 && best.probability < 0.8) seen[enough === 0.5 ? "kept" : "waited"] += 1;
+        if (best.probability >= 0.5 && best.probability < 0.8) counted[enough === 0.5 ? "kept" : "waited"] += 1;
         lit = best.probability >= enough ? [best.id] : [];
         assert.deepEqual(now, lit, JSON.stringify(best));
       }
-      assert.ok(seen.kept > 0 && seen.waited > 0, JSON.stringify(seen));
+      assert.ok(counted.kept > 0 && counted.waited > 0, JSON.stringify(counted));
       await finish();
     });
 

@@ -14,7 +14,7 @@ for (const key of ["motion", "observation", "initial", "arrival", "quadrature", 
   if (key in golden) scenario[key] = golden[key];
 }
 
-/** The user's code: what the predictor says after all observations. It takes the package's exports. */
+/** The user's code: what the predictor returns after all observations. It takes the package's exports. */
 const predict = `
 const scenario = ${JSON.stringify(scenario)};
 const observations = ${JSON.stringify(golden.observations)};
@@ -43,7 +43,7 @@ export function assertPredicted(probabilities) {
 export async function project(t) {
   const folder = realpathSync(mkdtempSync(join(tmpdir(), "whither-package-")));
   t.after(() => rmSync(folder, { recursive: true, force: true }));
-  // What npm says besides goes to standard error, so only the JSON is read.
+  // What else npm prints goes to standard error, so only the JSON is read.
   const packed = await npm(["pack", "--ignore-scripts", "--json", "--pack-destination", folder], root);
   const [tarball] = Object.values(JSON.parse(packed.slice(packed.search(/^[[{]/m))));
   write(folder, "package.json", JSON.stringify({ name: "a-users-project", private: true, type: "module" }));
@@ -77,7 +77,7 @@ export async function inNode(folder, name, text) {
   return JSON.parse(output);
 }
 
-/** A page whose script leaves a promise in `window.outcome`. */
+/** A page whose script puts a promise in `window.outcome`. */
 export function page(script) {
   return `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>A user's page</title>
 <link rel="icon" href="data:,"></head><body>${script}</body></html>`;

@@ -30,11 +30,11 @@ test("the shipped files", async (t) => {
 
   await t.test("are the entries and what they import", () => {
     assert.ok(scripts.length >= 12, scripts.join());
-    const beside = readdirSync(installed).filter((name) => name.endsWith(".js"));
-    assert.deepEqual(beside.sort(), ["pointing.js", "slim.js", "study.js"]);
+    const atTop = readdirSync(installed).filter((name) => name.endsWith(".js"));
+    assert.deepEqual(atTop.sort(), ["pointing.js", "slim.js", "study.js"]);
   });
 
-  await t.test("say the same when they are translated for the oldest engines that are promised", async () => {
+  await t.test("stay the same when they are translated for the oldest engines that are promised", async () => {
     for (const name of scripts) {
       const [asItIs, translated] = await Promise.all(
         [undefined, floor].map((target) => transform(read(name), { minify: true, format: "esm", ...(target && { target }) })),
@@ -65,12 +65,12 @@ test("the shipped files", async (t) => {
   });
 });
 
-function visit(node, where, seen) {
+function visit(node, where, callback) {
   if (Array.isArray(node)) {
-    for (const item of node) visit(item, where, seen);
+    for (const item of node) visit(item, where, callback);
   } else if (typeof node?.type === "string") {
-    seen(node, where);
+    callback(node, where);
     const inside = /Function/.test(node.type) ? { functions: where.functions + 1 } : where;
-    for (const value of Object.values(node)) if (typeof value === "object") visit(value, inside, seen);
+    for (const value of Object.values(node)) if (typeof value === "object") visit(value, inside, callback);
   }
 }

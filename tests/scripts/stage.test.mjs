@@ -1,4 +1,4 @@
-// What is told while something is done: that it is begun, how far it is, and nothing where there is nothing to do.
+// What is printed while something is done: that it has begun, how far it is, and nothing where there is nothing to do.
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -34,7 +34,7 @@ const compiling = (folder) => `
   const { compile } = await import(${JSON.stringify(script("cargo.mjs"))});
   await compile("compiling what is slow", ["build", "--offline"], { cwd: ${JSON.stringify(folder)} });`;
 
-test("what is compiled is told and counted on a terminal; what is compiled already is not told", async (t) => {
+test("compilation is reported and counted on a terminal; without it nothing is printed", async (t) => {
   const folder = slow(t);
   const first = await run(compiling(folder).replace("SHOWN", "true"));
   assert.equal(first.code, 0, first.output);
@@ -44,7 +44,7 @@ test("what is compiled is told and counted on a terminal; what is compiled alrea
   assert.deepEqual(second, { code: 0, output: "" });
 });
 
-test("where there is no terminal a line says what begins; warnings are shown", async (t) => {
+test("where there is no terminal one line reports what begins; warnings are shown", async (t) => {
   const { code, output } = await run(compiling(slow(t, "fn main() {}\nfn unused() {}")).replace("SHOWN", "false"));
   assert.equal(code, 0, output);
   assert.match(output, /^> compiling what is slow\nwarning: function `unused` is never used/);
@@ -58,7 +58,7 @@ test("an error of the compiler is shown, and fails", async (t) => {
   assert.match(output, /cargo build --offline failed \(exit code 101\)/);
 });
 
-test("where there is no terminal a long stage is told again every ten seconds, and at its end", async () => {
+test("where there is no terminal a long stage is reported again every ten seconds, and at its end", async () => {
   const { output } = await run(
     `
     import { mock } from "node:test";
@@ -73,7 +73,7 @@ test("where there is no terminal a long stage is told again every ten seconds, a
   assert.equal(output, "> something long\n> something long: 1 of 2, 10 s\n> something long: done in 11 s\n");
 });
 
-test("work that is done only once is told when it is done, and not again", async (t) => {
+test("work that is done only once is reported when it is done, and not again", async (t) => {
   const name = `stage-test-${process.pid}`;
   t.after(() => rmSync(join(root, "target/stamps", name), { force: true }));
   const text = `

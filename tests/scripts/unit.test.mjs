@@ -23,7 +23,7 @@ test("a unit that is slow on purpose is refused, and a check that is", () => {
   assert.throws(() => checkUnit("in this test", [other], [other.check]), /^Error: the unit is off, in this test: .* times apart/);
 });
 
-test("the fault of once, 14 ns beside 7.5, is refused, and so is what is no number", () => {
+test("a unit of 14 ns where the check takes 7.5 is refused, and so is NaN", () => {
   const captured = { plain: 14, unrolled: 14 };
   assert.throws(
     () => checkUnit("in Node", [captured], [7.5]),

@@ -68,7 +68,7 @@ fn an_observation_in_full_may_lack_an_axis_and_have_a_noise_of_its_own() {
 }
 
 #[wasm_bindgen_test]
-fn destinations_come_move_and_go() {
+fn destinations_are_added_moved_and_removed() {
     let (mut engine, mut predictor, case) = moved("pseudoObservation");
     let new = json!({ "id": "new", "mean": [0.5, 1], "covariance": [[0.02, 0], [0, 0.02]] });
     good(engine.add_destination(plain(&json!({ "destination": new }))));

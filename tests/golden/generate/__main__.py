@@ -111,7 +111,7 @@ KINDS = [(movements.case, MOVEMENTS, 1), (pointing.case, POINTING, None), (seque
 
 
 def plain(value):
-    """JSON has no infinity: null stands for it."""
+    """JSON has no infinity: null is written for it."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list):

@@ -1,5 +1,5 @@
 """The pointing model (docs/pointing.md): a Kalman filter whose noise grows with the speed; for each target a closed-form density
-of the endpoint over noise scales and times to go, against what the start alone says; and the direction from the start.
+of the endpoint over noise scales and times to go, against the density given the start alone; and the direction from the start.
 
 Two dimensions, pixels and seconds. `CONSTANTS` is what a scenario states under the keys of the same names.
 """
