@@ -10,8 +10,8 @@ use crate::value::Value;
 /// use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 /// let target = PointerTarget { id: "map".to_owned(), x: 700.0, y: 300.0, width: 96.0, height: 48.0 };
 /// let scenario = pointer_scenario(&[target], PointerOptions::default()).unwrap();
-/// assert_eq!(*scenario.destinations.center(0), [700.0, 300.0]);
-/// assert_eq!(scenario.destinations.kind(0).covariance()[(1, 1)], 192.0); // 48^2 / 12
+/// assert_eq!(scenario.destinations.center(0), [700.0, 300.0]);
+/// assert_eq!(scenario.destinations.class(0).covariance()[(1, 1)], 192.0); // 48^2 / 12
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointerTarget {

@@ -325,7 +325,7 @@ impl Predictor {
     pub(crate) fn apply_habits(&mut self) {
         let Some(learning) = &self.scenario.learning else { return };
         let priors = self.habits.priors(learning, &self.destinations);
-        Arc::make_mut(&mut self.destinations).learn(&priors);
+        Arc::make_mut(&mut self.destinations).learn(priors);
         self.stale = true;
     }
 }

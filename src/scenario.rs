@@ -165,7 +165,7 @@ impl Scenario {
         };
         self.check_size(destinations, *method, arrival, quadrature)?;
         self.check_noise(destinations, *method)?;
-        let own = |i: &usize| destinations.kind(*i).arrival().is_some_and(Arrival::is_horizon);
+        let own = |i: &usize| destinations.class(*i).arrival().is_some_and(Arrival::is_horizon);
         match (0..destinations.len()).find(own) {
             Some(i) => self
                 .refuse_accumulating(&format!("destinations[{i}].arrival"), "a horizon moves with every observation"),
@@ -183,7 +183,7 @@ impl Scenario {
         quadrature: &Quadrature,
     ) -> Result<()> {
         let count = destinations.len();
-        let points = |i: usize| destinations.kind(i).arrival().unwrap_or(arrival).points(quadrature);
+        let points = |i: usize| destinations.class(i).arrival().unwrap_or(arrival).points(quadrature);
         let nodes: u64 = (0..count).map(|i| points(i) as u64).sum();
         let states = self.motion.states() as u64;
         let each = nodes * if method == Method::Bridging { 2 * states + 1 } else { 1 };
@@ -207,7 +207,7 @@ impl Scenario {
         if !matches!(method, Method::Bridging | Method::SingleFilter) {
             return Ok(());
         }
-        let length = (0..destinations.len()).map(|i| destinations.kind(i).length()).max().unwrap_or(0);
+        let length = (0..destinations.len()).map(|i| destinations.class(i).length()).max().unwrap_or(0);
         // the rank is the same after any time
         if !self.motion.candidates.iter().any(|c| Endpoint::after(c.model.as_ref(), 1.0, length).is_singular()) {
             return Ok(());
@@ -324,11 +324,11 @@ impl Engine {
 /// What the pointing model has no use for in a destination.
 fn check_for_pointing(destinations: &Destinations) -> Result<()> {
     for i in 0..destinations.len() {
-        let kind = destinations.kind(i);
+        let class = destinations.class(i);
         let extra = [
-            ("arrival", kind.arrival().is_some()),
-            ("endVelocity", kind.end_velocity().is_some()),
-            ("mean", kind.length() > destinations.dimensions()),
+            ("arrival", class.arrival().is_some()),
+            ("endVelocity", class.end_velocity().is_some()),
+            ("mean", class.length() > destinations.dimensions()),
         ];
         for (key, found) in extra {
             if found {

@@ -68,7 +68,7 @@ impl Likelihood for Algorithm2 {
                 let mean = step.before.mean(i);
                 let smoothed = &mean + &before.gain * scene.endpoint_error(i, &total, &mean);
                 let moved: DVector<f64> =
-                    &transition.transition * &smoothed + transition.constant(&scene.destinations.center(i));
+                    &transition.transition * &smoothed + transition.constant(scene.destinations.center(i));
                 let bridged = &moved + &onward.gain * scene.endpoint_error(i, &rest, &moved);
                 self.table[scene.plan.rows[i] + node.index] +=
                     density.log_density(&(&step.measurement.value - observation * &bridged));

@@ -118,7 +118,7 @@ impl Likelihood for Bridging {
                 let row = scene.plan.rows[i] + node.index;
                 let place = row * stride;
                 let before = DVector::from_column_slice(&self.means[place..place + size]);
-                let mut mean = onward.mean(&before, &scene.destinations.center(i));
+                let mut mean = onward.mean(&before, scene.destinations.center(i));
                 if let Some(correction) = &correction {
                     let error = &step.measurement.value - &observation * &mean;
                     self.table[row] += correction.prediction_error.log_density(&error);
@@ -145,7 +145,7 @@ impl Likelihood for Bridging {
         let mean = |&i: &usize| {
             let place = (scene.plan.rows[i] + node.index) * stride;
             let before = DVector::from_column_slice(&self.means[place..place + onward.matrix.nrows()]);
-            onward.mean(&before, &scene.destinations.center(i)).rows(0, s).into_owned()
+            onward.mean(&before, scene.destinations.center(i)).rows(0, s).into_owned()
         };
         Some(States {
             means: query.members.iter().map(mean).collect(),

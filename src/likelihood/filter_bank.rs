@@ -313,6 +313,6 @@ fn offsets(transition: &Transition, destinations: &Destinations, columns: usize)
     if transition.destination_gain.is_none() {
         return DMatrix::from_column_slice(transition.offset.len(), 1, transition.offset.as_slice());
     }
-    let each: Vec<DVector<f64>> = (0..columns).map(|i| transition.constant(&destinations.center(i))).collect();
+    let each: Vec<DVector<f64>> = (0..columns).map(|i| transition.constant(destinations.center(i))).collect();
     DMatrix::from_columns(&each)
 }

@@ -188,7 +188,7 @@ impl<'a> Scene<'a> {
             let times = &self.plan.grids[group.grid].times;
             let base = first_number;
             first_number += times.len();
-            let kind = &self.destinations.kinds()[group.kind];
+            let class = &self.destinations.classes()[group.class];
             times.iter().enumerate().filter_map(move |(index, &time)| {
                 let remaining = self.plan.remaining(group.grid, time, elapsed);
                 (remaining > 0.0).then(|| NodeOfGroup {
@@ -197,7 +197,7 @@ impl<'a> Scene<'a> {
                     number: base + index,
                     remaining,
                     since_first: self.plan.since_first(group.grid, time, elapsed),
-                    covariance: kind.covariance(),
+                    covariance: class.covariance(),
                 })
             })
         })
@@ -226,6 +226,6 @@ impl<'a> Scene<'a> {
 
     /// The endpoint's prediction error for destination `i` from a state.
     pub(crate) fn endpoint_error(self, i: usize, endpoint: &Endpoint, state: &DVector<f64>) -> DVector<f64> {
-        endpoint.error(self.destinations.mean(i), state, &self.destinations.center(i))
+        endpoint.error(self.destinations.mean(i), state, self.destinations.center(i))
     }
 }

@@ -5,13 +5,13 @@ use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
 use std::collections::HashMap;
 
-/// Destinations that have both the arrival nodes and the kind of endpoint in common: every matrix serves all of them.
+/// Destinations that have both the arrival nodes and the class of endpoint in common: every matrix serves all of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Group {
     /// Which grid of nodes.
     pub grid: usize,
-    /// Which kind of endpoint.
-    pub kind: usize,
+    /// Which class of endpoint.
+    pub class: usize,
     /// The destinations.
     pub members: Vec<u32>,
 }
@@ -21,7 +21,7 @@ pub(crate) struct Group {
 pub(crate) struct Plan {
     /// The distinct grids.
     pub grids: Vec<Grid>,
-    /// The destinations by grid and kind.
+    /// The destinations by grid and class.
     pub groups: Vec<Group>,
     /// The grid of each destination.
     pub grid_of: Vec<u32>,
@@ -44,16 +44,16 @@ impl Plan {
             horizons: Vec::new(),
             possible: Vec::new(),
         };
-        let kinds = destinations.kinds();
-        // a grid for each kind's own prior, one for all that have none; a grid for each destination under Fitts's law
-        let mut shared: Vec<Option<u32>> = vec![None; kinds.len()];
+        let classes = destinations.classes();
+        // a grid for each class's own prior, one for all that have none; a grid for each destination under Fitts's law
+        let mut shared: Vec<Option<u32>> = vec![None; classes.len()];
         let mut default: Option<u32> = None;
         let mut groups = HashMap::new();
         for i in 0..destinations.len() {
-            let kind_number = destinations.kind_number(i);
-            let kind = &kinds[kind_number];
-            let prior = kind.arrival().unwrap_or(arrival);
-            let known = if kind.arrival().is_some() { &mut shared[kind_number] } else { &mut default };
+            let number = destinations.class_number(i);
+            let class = &classes[number];
+            let prior = class.arrival().unwrap_or(arrival);
+            let known = if class.arrival().is_some() { &mut shared[number] } else { &mut default };
             let grid = match *known {
                 Some(grid) if !prior.needs_distance() => grid,
                 _ => {
@@ -62,15 +62,15 @@ impl Plan {
                     let distance = offsets.sum::<f64>().sqrt();
                     plan.horizons.push(prior.is_horizon());
                     plan.possible.push(false);
-                    plan.grids.push(prior.grid(quadrature, distance, kind.extent(destinations.dimensions())));
+                    plan.grids.push(prior.grid(quadrature, distance, class.extent(destinations.dimensions())));
                     plan.grids.len() as u32 - 1
                 }
             };
             *known = Some(grid);
             plan.possible[grid as usize] |= destinations.priors()[i] > 0.0;
-            let group = *groups.entry((grid, kind_number)).or_insert(plan.groups.len());
+            let group = *groups.entry((grid, number)).or_insert(plan.groups.len());
             if group == plan.groups.len() {
-                plan.groups.push(Group { grid: grid as usize, kind: kind_number, members: Vec::new() });
+                plan.groups.push(Group { grid: grid as usize, class: number, members: Vec::new() });
             }
             plan.groups[group].members.push(i as u32);
             plan.grid_of.push(grid);

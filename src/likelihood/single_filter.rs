@@ -103,7 +103,7 @@ impl Likelihood for SingleFilter {
         let integral = Integral::new(&scene, query.node, joint_root(&all, &scene, &noise))?;
         let at = integral.root.rows(s, s).into_owned();
         let mean = |&i: &usize| {
-            let predicted = &step.transition * scene.filter.mean(i) + step.constant(&scene.destinations.center(i));
+            let predicted = &step.transition * scene.filter.mean(i) + step.constant(scene.destinations.center(i));
             let endpoint = scene.endpoint_error(i, &rest, &predicted);
             predicted + &at * integral.mean(&scene, i, &endpoint)
         };

@@ -1,356 +1,205 @@
 //! Destinations, Liang (4): the endpoint `G~ x_T ~ N(a_i, S_i)`, a prior weight, and where wanted an arrival prior of its own.
 
 use super::arrival::Arrival;
-use super::observation::read_covariance;
+use super::matrix::Matrix;
+use super::per_axis::PerAxis;
 use crate::error::{Code, Error, Result};
 use crate::math::kernel::mixture::AXES;
-use crate::math::kernel::vectors::Block;
-use crate::value::{Node, Value, number, quote};
+use crate::value::{Node, Path, Value, quote};
+use serde::{Serialize, Serializer};
 
-use std::collections::HashMap;
+mod class;
+mod list;
 
-mod edit;
-mod ids;
-mod kind;
-mod kinds;
-mod means;
+pub use class::EndpointClass;
+pub use list::{Destinations, MOST_DESTINATIONS};
 
-use crate::math::kernel::columns::{Column, Filler};
-use ids::Ids;
-pub use kind::Kind;
-use kinds::Kinds;
-pub use means::Center;
-use means::Means;
-
-/// More destinations than this are an error, so that no input can exhaust the memory.
-pub const MOST_DESTINATIONS: usize = 1_000_000;
-
-/// One nominal destination.
+/// One nominal destination, as it is described: a box, whose endpoint has the covariance of a uniform density over it,
+/// `size^2 / 12` for each side, or a Gaussian. What takes destinations validates them.
 ///
 /// ```
-/// use whither::{Destination, Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "id": "map", "center": [500, 300], "size": [60, 12] }"#).unwrap();
-/// let destination = Destination::read(&Node::root(&value, "destination"), 2, 4).unwrap();
-/// assert_eq!((destination.mean, destination.prior), (vec![500.0, 300.0], 1.0));
-/// assert_eq!(destination.kind.covariance()[(1, 1)], 12.0); // of an even density: 12^2 / 12
+/// use whither::Destination;
+/// let map = Destination::new("map", [600.0, 300.0]).size([90.0, 60.0]).end_velocity(200.0).prior(2.0);
+/// let harbour = Destination::gaussian("harbour", [4.0, 9.0], [[2.0, 0.5], [0.5, 1.0]]);
+/// assert_eq!(serde_json::to_value(&map).unwrap()["size"][1], 60.0);
+/// assert_eq!(serde_json::to_value(&harbour).unwrap()["covariance"][1][0], 0.5);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Destination {
-    /// Its name, unique among the destinations.
-    pub id: String,
-    /// The endpoint's mean `a_i`: its first `l` components of the state.
-    pub mean: Vec<f64>,
-    /// Weight before any observation; only ratios matter.
-    pub prior: f64,
-    /// Everything that destinations may share.
-    pub kind: Kind,
+    id: String,
+    center: Option<Vec<f64>>,
+    size: Option<PerAxis>,
+    end_velocity: Option<f64>,
+    mean: Option<Vec<f64>>,
+    covariance: Option<Matrix>,
+    prior: f64,
+    arrival: Option<Arrival>,
 }
 
-const KEYS: [&str; 8] = ["id", "mean", "covariance", "center", "size", "endVelocity", "prior", "arrival"];
+/// An endpoint `N(a_i, S_i)`, validated, with its prior weight.
+#[derive(Clone, Debug)]
+struct Endpoint {
+    /// Where its id ends in the text of all ids.
+    id_end: usize,
+    /// The first `d` components of the mean `a_i`.
+    center: [f64; AXES],
+    /// The components after the centre; empty where they are zero, as a box's are.
+    rest: Box<[f64]>,
+    prior: f64,
+    /// Its place among the classes of [`Destinations`], which has `S_i`.
+    class: u32,
+}
 
 impl Destination {
-    /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`, for a
-    /// motion model of `states` components in `dimensions` axes. A box's covariance is that of a uniform density over it,
-    /// `size^2 / 12` for each side.
+    fn with_id(id: impl Into<String>) -> Self {
+        let id = id.into();
+        Self {
+            id,
+            center: None,
+            size: None,
+            end_velocity: None,
+            mean: None,
+            covariance: None,
+            prior: 1.0,
+            arrival: None,
+        }
+    }
+
+    /// A box about `center`, one number for each axis, of a [`Destination::size`] that is still to be given; `id` is unique among
+    /// the destinations.
+    #[must_use]
+    pub fn new(id: impl Into<String>, center: impl Into<Vec<f64>>) -> Self {
+        Self { center: Some(center.into()), ..Self::with_id(id) }
+    }
+
+    /// A Gaussian endpoint: the mean `a_i` and the covariance `S_i` of the first `l` components of the state, from the position
+    /// alone to all of it.
+    #[must_use]
+    pub fn gaussian(id: impl Into<String>, mean: impl Into<Vec<f64>>, covariance: impl Into<Matrix>) -> Self {
+        Self { mean: Some(mean.into()), covariance: Some(covariance.into()), ..Self::with_id(id) }
+    }
+
+    /// The sides of the box, greater than zero: one number for all axes, or one for each.
+    #[must_use]
+    pub fn size(self, size: impl Into<PerAxis>) -> Self {
+        Self { size: Some(size.into()), ..self }
+    }
+
+    /// The deviation of the velocity on arrival, about zero, in each axis; without it nothing is known of that velocity.
+    #[must_use]
+    pub fn end_velocity(self, deviation: f64) -> Self {
+        Self { end_velocity: Some(deviation), ..self }
+    }
+
+    /// The weight before any observation, 1 if not given; only ratios matter.
+    #[must_use]
+    pub fn prior(self, prior: f64) -> Self {
+        Self { prior, ..self }
+    }
+
+    /// An arrival prior of its own in place of the scenario's.
+    #[must_use]
+    pub fn arrival(self, arrival: Arrival) -> Self {
+        Self { arrival: Some(arrival), ..self }
+    }
+
+    /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`.
     ///
     /// # Errors
-    /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
-    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
-        let fields = node.fields(&KEYS)?;
-        let id = fields.required("id")?.text()?.to_owned();
-        let prior = fields.optional("prior").map_or(Ok(1.0), |prior| prior.not_negative())?;
-        let arrival = fields.optional("arrival").map(|node| {
-            let arrival = Arrival::read(&node)?;
-            arrival.check(node.place()).map(|()| arrival)
-        });
-        let arrival = arrival.transpose()?;
-        let Some(center) = fields.optional("center") else {
-            for key in ["size", "endVelocity"] {
-                if let Some(extra) = fields.optional(key) {
-                    return Err(extra.error(Code::UnknownKey, "cannot be combined with mean and covariance"));
-                }
-            }
-            let field = fields.required("mean")?;
-            let mean = field.vector(None)?;
-            if mean.len() < dimensions || mean.len() > states {
-                let must = format!("must have {dimensions} to {states} numbers, has {}", mean.len());
-                return Err(field.error(Code::WrongLength, &must));
-            }
-            let covariance = read_covariance(&fields.required("covariance")?, mean.len())?;
-            return Ok(Self { id, mean, prior, kind: Kind::of_covariance(covariance, arrival) });
-        };
-        for key in ["mean", "covariance"] {
-            if let Some(extra) = fields.optional(key) {
-                return Err(extra.error(Code::UnknownKey, "cannot be combined with center and size"));
-            }
-        }
-        let mut mean = center.vector(Some(dimensions))?;
-        let size = fields.required("size")?.for_each_axis(dimensions, |n| n.positive())?;
-        let end_velocity = fields.optional("endVelocity");
-        if let Some(field) = &end_velocity {
-            if states < 2 * dimensions {
-                return Err(field.error(Code::OutOfRange, "the motion model has no velocity"));
-            }
-            mean.extend(vec![0.0; dimensions]);
-        }
-        let end_velocity = end_velocity.map(|field| field.positive()).transpose()?;
-        Ok(Self { id, mean, prior, kind: Kind::of_box(&size, end_velocity, arrival) })
-    }
-
-    /// The scenario's own form.
-    #[must_use]
-    pub fn to_value(&self) -> Value {
-        let mut entries = vec![("id".to_owned(), Value::text(&self.id))];
-        let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
-        if let Some(size) = self.kind.size() {
-            put("center", Value::numbers(&self.mean[..size.len()]));
-            put("size", Value::numbers(size));
-            if let Some(deviation) = self.kind.end_velocity() {
-                put("endVelocity", Value::Number(deviation));
-            }
-        } else {
-            put("mean", Value::numbers(&self.mean));
-            let covariance = self.kind.covariance();
-            let rows = covariance.row_iter().map(|row| Value::numbers(row.iter()));
-            put("covariance", Value::List(rows.collect()));
-        }
-        put("prior", Value::Number(self.prior));
-        if let Some(arrival) = self.kind.arrival() {
-            put("arrival", arrival.to_value());
-        }
-        Value::Map(entries)
-    }
-}
-
-/// The destinations of a predictor, in order, as flat arrays, a list for each axis, which the hot loops read as they stand;
-/// what destinations share is kept once for each kind.
-///
-/// ```
-/// use whither::{Value, model::destination::Destinations, value::Node};
-/// let value: Value = serde_json::from_str(r#"[
-///     { "id": "near", "center": [10], "size": 12 }, { "id": "far", "center": [90], "size": 12, "prior": 3 }
-/// ]"#).unwrap();
-/// let destinations = Destinations::read(&Node::root(&value, "destinations"), 1, 1).unwrap();
-/// assert_eq!((destinations.len(), destinations.index_of("far").unwrap()), (2, 1));
-/// assert_eq!(destinations.priors(), [1.0, 3.0]);
-/// assert_eq!(destinations.kinds().len(), 1); // of the same size, so they share their covariance
-/// ```
-#[derive(Clone, Debug)]
-pub struct Destinations {
-    ids: Ids,
-    /// Positions in `ids`, sorted by id.
-    by_id: Vec<u32>,
-    means: Means,
-    priors: Column,
-    /// The priors in force where they are learnt.
-    learnt: Option<Column>,
-    kinds: Kinds,
-}
-
-impl Destinations {
-    /// Reads a list of destinations for a motion model of `states` components in `dimensions` axes.
-    ///
-    /// # Errors
-    /// As [`Destination::read`]; `no-destinations`, `duplicate-id`, `too-large`, and `out-of-range` where every prior is zero.
-    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
-        let items = node.items()?;
-        let count = items.len();
-        if count == 0 {
-            return Err(Error::new(Code::NoDestinations, node.path(), "must have at least one destination, has none"));
-        }
-        if count > MOST_DESTINATIONS {
-            let message = format!("must have at most {MOST_DESTINATIONS} destinations, has {count}");
-            return Err(Error::new(Code::TooLarge, node.path(), message));
-        }
-        let mut all = Self {
-            ids: Ids::with_capacity(count),
-            by_id: Vec::new(),
-            means: Means::with_capacity(count, dimensions),
-            priors: Column::with_capacity(count, Filler::Zero),
-            learnt: None,
-            kinds: Kinds::default(),
-        };
-        let mut known = HashMap::new();
-        for item in items {
-            let destination = Destination::read(&item, dimensions, states)?;
-            let kind = *known.entry(destination.kind.fingerprint()).or_insert(all.kinds.list().len());
-            if kind == all.kinds.list().len() {
-                all.kinds.add(&destination.kind);
-            }
-            all.push(&destination, kind);
-        }
-        let mut by_id: Vec<u32> = (0..count as u32).collect();
-        by_id.sort_by_key(|&i| all.ids.get(i as usize));
-        for pair in by_id.windows(2) {
-            let (first, second) = (pair[0] as usize, pair[1] as usize);
-            if all.ids.get(first) == all.ids.get(second) {
-                let path = format!("{}[{second}].id", node.path());
-                return Err(duplicate(path, all.ids.get(first), first));
-            }
-        }
-        all.by_id = by_id;
-        all.ids.trim();
-        all.kinds.trim();
-        all.check_priors(&node.path())?;
-        Ok(all)
-    }
-
-    fn push(&mut self, destination: &Destination, kind: usize) {
-        self.ids.push(&destination.id);
-        self.means.push(&destination.mean);
-        self.priors.push(destination.prior);
-        self.kinds.push(kind);
-    }
-
-    fn check_priors(&self, path: &str) -> Result<()> {
-        let total: f64 = self.priors.numbers().iter().sum();
-        if total > 0.0 && total.is_finite() {
-            return Ok(());
-        }
-        Err(Error::new(
-            Code::OutOfRange,
-            path,
-            format!("the priors must have a finite sum above 0, it is {}", number(total)),
-        ))
-    }
-
-    /// How many there are; at least one.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.ids.len()
-    }
-
-    /// Never true: a predictor keeps at least one destination.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Spatial dimensions `d`.
-    #[must_use]
-    pub const fn dimensions(&self) -> usize {
-        self.means.dimensions
-    }
-
-    /// The ids, in order.
-    pub fn ids(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.ids.iter()
-    }
-
-    /// The id of destination `i`.
-    #[must_use]
-    pub fn id(&self, i: usize) -> &str {
-        self.ids.get(i)
-    }
-
-    /// The place of a destination in the order.
-    #[must_use]
-    pub fn find(&self, id: &str) -> Option<usize> {
-        self.by_id.binary_search_by(|&i| self.ids.get(i as usize).cmp(id)).ok().map(|place| self.by_id[place] as usize)
-    }
-
-    /// The place of a destination in the order.
-    ///
-    /// # Errors
-    /// `unknown-id`.
-    pub fn index_of(&self, id: &str) -> Result<usize> {
-        self.find(id).ok_or_else(|| {
-            let shown: Vec<String> = self.ids.iter().take(5).map(quote).collect();
-            let more = if self.len() > 5 { ", ..." } else { "" };
-            let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
-            Error::new(Code::UnknownId, "id", message)
+    /// `unknown-key`, `missing-key`, `wrong-type`, and those of an arrival prior.
+    pub(crate) fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
+        let keys = ["id", "mean", "covariance", "center", "size", "endVelocity", "prior", "arrival"];
+        let fields = node.fields(&keys)?;
+        let number = |key| fields.optional(key).map(|field| field.float()).transpose();
+        let numbers = |key| fields.optional(key).map(|field| field.floats()).transpose();
+        Ok(Self {
+            id: fields.required("id")?.text()?.to_owned(),
+            center: numbers("center")?,
+            size: fields.optional("size").map(|size| PerAxis::read(&size, dimensions)).transpose()?,
+            end_velocity: number("endVelocity")?,
+            mean: numbers("mean")?,
+            covariance: fields.optional("covariance").map(|covariance| Matrix::read(&covariance)).transpose()?,
+            prior: number("prior")?.unwrap_or(1.0),
+            arrival: fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?,
         })
     }
 
-    /// The endpoint's mean `a_i`, of length `l`.
-    #[must_use]
-    pub fn mean(&self, i: usize) -> Vec<f64> {
-        self.means.components(i, 0, self.kind(i).length())
-    }
-
-    /// The centre, the first `d` components of the endpoint's mean.
-    #[must_use]
-    pub fn center(&self, i: usize) -> Center {
-        self.means.center(i)
-    }
-
-    /// The components of the endpoint's mean after the first `d`.
-    #[must_use]
-    pub fn rest(&self, i: usize) -> Vec<f64> {
-        self.means.components(i, self.dimensions(), self.kind(i).length())
-    }
-
-    /// The centres in whole blocks, a list for each axis. The last block is filled up with its first destination.
-    #[must_use]
-    pub(crate) fn coordinates(&self) -> [&[Block]; AXES] {
-        self.means.coordinates()
-    }
-
-    fn in_force(&self) -> &Column {
-        self.learnt.as_ref().unwrap_or(&self.priors)
-    }
-
-    /// The prior weights, not normalised.
-    #[must_use]
-    pub fn priors(&self) -> &[f64] {
-        self.in_force().numbers()
-    }
-
-    /// The same in whole blocks; the last one is filled up with zeros.
-    #[must_use]
-    pub(crate) fn prior_blocks(&self) -> &[Block] {
-        self.in_force().blocks()
-    }
-
-    /// The prior weights as they were given, not normalised.
-    #[must_use]
-    pub fn given_priors(&self) -> &[f64] {
-        self.priors.numbers()
-    }
-
-    /// Puts learnt priors in force, one for each destination, until the destinations change.
-    pub fn learn(&mut self, priors: &[f64]) {
-        let mut learnt = Column::with_capacity(priors.len(), Filler::Zero);
-        priors.iter().for_each(|prior| learnt.push(*prior));
-        self.learnt = (priors.len() == self.len()).then_some(learnt);
-    }
-
-    /// What destination `i` shares with others.
-    #[must_use]
-    pub fn kind(&self, i: usize) -> &Kind {
-        &self.kinds()[self.kind_number(i)]
-    }
-
-    /// Which of the kinds destination `i` is of.
-    #[must_use]
-    pub fn kind_number(&self, i: usize) -> usize {
-        self.kinds.of(i)
-    }
-
-    /// The kinds; some may have no destination left.
-    #[must_use]
-    pub fn kinds(&self) -> &[Kind] {
-        self.kinds.list()
-    }
-
-    /// Destination `i` in full.
-    #[must_use]
-    pub fn get(&self, i: usize) -> Destination {
-        Destination {
-            id: self.id(i).to_owned(),
-            mean: self.mean(i),
-            prior: self.priors.numbers()[i],
-            kind: self.kind(i).clone(),
+    /// The endpoint and its class, for a motion model of `states` components in `dimensions` axes.
+    ///
+    /// # Errors
+    /// `unknown-key`, `missing-key`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
+    fn check(self, path: &Path<'_>, dimensions: usize, states: usize) -> Result<(Endpoint, EndpointClass)> {
+        let missing =
+            |key: &str| Error::new(Code::MissingKey, path.key(key).to_string(), format!("missing key {}", quote(key)));
+        let prior = path.key("prior").not_negative(self.prior)?;
+        if let Some(arrival) = &self.arrival {
+            arrival.check(&path.key("arrival"))?;
         }
+        let (mean, class) = if let Some(center) = &self.center {
+            let refused = "cannot be combined with center and size";
+            if let Some(mean) = &self.mean {
+                return Err(path.key("mean").error(Code::UnknownKey, refused, mean.as_slice()));
+            }
+            if let Some(covariance) = &self.covariance {
+                return Err(path.key("covariance").error(Code::UnknownKey, refused, covariance));
+            }
+            let center = path.key("center").vector(center, dimensions, |at, x| at.number(x))?;
+            let size = self.size.as_ref().ok_or_else(|| missing("size"))?;
+            let size = size.check(&path.key("size"), dimensions, |at, x| at.positive(x))?;
+            if let Some(deviation) = self.end_velocity {
+                let path = path.key("endVelocity");
+                if states < 2 * dimensions {
+                    return Err(path.error(Code::OutOfRange, "the motion model has no velocity", deviation));
+                }
+                path.positive(deviation)?;
+            }
+            (center, EndpointClass::of_box(&size, self.end_velocity, self.arrival))
+        } else {
+            let refused = "cannot be combined with mean and covariance";
+            if let Some(size) = &self.size {
+                return Err(path.key("size").error(Code::UnknownKey, refused, size.to_value()));
+            }
+            if let Some(deviation) = self.end_velocity {
+                return Err(path.key("endVelocity").error(Code::UnknownKey, refused, deviation));
+            }
+            let mean = self.mean.as_ref().ok_or_else(|| missing("mean"))?;
+            let at = path.key("mean");
+            if mean.len() < dimensions || mean.len() > states {
+                let must = format!("must have {dimensions} to {states} numbers, has {}", mean.len());
+                return Err(at.error(Code::WrongLength, &must, mean.as_slice()));
+            }
+            let mean = at.each(mean, |at, x| at.number(x))?;
+            let covariance = self.covariance.as_ref().ok_or_else(|| missing("covariance"))?;
+            let covariance = covariance.covariance(&path.key("covariance"), mean.len())?;
+            (mean, EndpointClass::of_covariance(covariance, self.arrival))
+        };
+        let mut center = [0.0; AXES];
+        center.iter_mut().zip(&mean[..dimensions]).for_each(|(to, from)| *to = *from);
+        Ok((Endpoint { id_end: 0, center, rest: mean[dimensions..].into(), prior, class: 0 }, class))
     }
 
     /// The scenario's own form.
     #[must_use]
     pub fn to_value(&self) -> Value {
-        Value::List((0..self.len()).map(|i| self.get(i).to_value()).collect())
+        let fields = [
+            ("id", Some(Value::text(&self.id))),
+            ("center", self.center.as_ref().map(Value::numbers)),
+            ("size", self.size.as_ref().map(PerAxis::to_value)),
+            ("endVelocity", self.end_velocity.map(Value::Number)),
+            ("mean", self.mean.as_ref().map(Value::numbers)),
+            ("covariance", self.covariance.as_ref().map(Value::from)),
+            ("prior", Some(Value::Number(self.prior))),
+            ("arrival", self.arrival.as_ref().map(Arrival::to_value)),
+        ];
+        Value::Map(fields.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect())
     }
 }
 
-fn duplicate(path: String, id: &str, first: usize) -> Error {
-    Error::new(Code::DuplicateId, path, format!("the id {} is taken by destinations[{first}]", quote(id)))
+impl Serialize for Destination {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        self.to_value().serialize(serializer)
+    }
 }
+
+#[cfg(test)]
+mod tests;

@@ -158,7 +158,7 @@ impl Habits {
     /// The priors of `destinations` as they are learnt; destinations that the scenario rules out stay ruled out.
     #[must_use]
     pub fn priors(&self, learning: &Learning, destinations: &Destinations) -> Vec<f64> {
-        let given = destinations.given_priors();
+        let given: Vec<f64> = destinations.given_priors().collect();
         let total: f64 = given.iter().sum();
         let possible = |i: usize, count: f64| if given[i] > 0.0 { count } else { 0.0 };
         let mut at_large: Vec<f64> = destinations

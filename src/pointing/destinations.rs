@@ -2,15 +2,15 @@
 
 use super::targets::{Extent, Target, Targets};
 use super::vector;
-use crate::model::destination::{Destinations, Kind};
+use crate::model::destination::{Destinations, EndpointClass};
 
 impl From<&Destinations> for Targets {
     fn from(destinations: &Destinations) -> Self {
         let d = destinations.dimensions();
-        let extents = destinations.kinds().iter().map(|kind| extent(kind, d)).collect();
+        let extents = destinations.classes().iter().map(|class| extent(class, d)).collect();
         let target = |i: usize| Target {
-            center: vector(&destinations.center(i)),
-            extent: destinations.kind_number(i),
+            center: vector(destinations.center(i)),
+            extent: destinations.class_number(i),
             prior: destinations.priors()[i],
         };
         Self::new(d, extents, (0..destinations.len()).map(target))
@@ -18,9 +18,9 @@ impl From<&Destinations> for Targets {
 }
 
 /// The position block of the endpoint's covariance, and the sides.
-fn extent(kind: &Kind, dimensions: usize) -> Extent {
-    let at = |r: usize, c: usize| if r < dimensions { kind.variance(r, c) } else { 0.0 };
-    let side = |axis: usize| if axis < dimensions { kind.side(axis) } else { 0.0 };
+fn extent(class: &EndpointClass, dimensions: usize) -> Extent {
+    let at = |r: usize, c: usize| if r < dimensions { class.variance(r, c) } else { 0.0 };
+    let side = |axis: usize| if axis < dimensions { class.side(axis) } else { 0.0 };
     Extent {
         covariance: [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)],
         sides: [side(0), side(1), side(2)],

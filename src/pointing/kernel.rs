@@ -29,7 +29,7 @@ const NOTHING: f64 = 60.0;
 pub struct Work {
     shared: Vec<SharedDensity>,
     densities: Vec<Density>,
-    /// Room for the weights where destinations stand in another order than their own.
+    /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
 }
 
@@ -60,7 +60,7 @@ impl Work {
             return None;
         }
         let Self { shared, densities, aside } = self;
-        let weights = targets.layout().room(aside, into);
+        let weights = targets.layout().buffer(aside, into);
         let d = now.nodes.dimensions();
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
         for class in targets.classes() {
@@ -84,7 +84,7 @@ impl Work {
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
             return None;
         }
-        targets.layout().settle(aside, into);
+        targets.layout().scatter(aside, into);
         let over = 1.0 / total;
         into.iter_mut().for_each(|weight| *weight *= over);
         Some(total.ln() + shift * std::f64::consts::LN_2)

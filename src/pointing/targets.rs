@@ -1,7 +1,6 @@
 //! The targets of a movement as flat arrays for the hot loop, by the covariance of their endpoints.
 
 use super::{Symmetric, Vector};
-use crate::math::kernel::columns::{Column, Filler};
 use crate::math::kernel::layout::{FEW, Layout};
 use crate::math::kernel::mixture::{AXES, Places};
 use std::ops::Range;
@@ -60,7 +59,8 @@ pub struct Class {
 /// All targets, in order.
 #[derive(Clone, Debug)]
 pub struct Targets {
-    centers: [Column; AXES],
+    dimensions: usize,
+    centers: Vec<Vector>,
     priors: Vec<f64>,
     extents: Vec<Extent>,
     extent_of: Vec<u32>,
@@ -73,9 +73,9 @@ impl Targets {
     #[must_use]
     pub fn new(dimensions: usize, extents: Vec<Extent>, list: impl ExactSizeIterator<Item = Target>) -> Self {
         let count = list.len();
-        let column = |axis: usize| Column::with_capacity(if axis < dimensions { count } else { 0 }, Filler::First);
         let mut targets = Self {
-            centers: [column(0), column(1), column(2)],
+            dimensions,
+            centers: Vec::with_capacity(count),
             priors: Vec::with_capacity(count),
             extents,
             extent_of: Vec::with_capacity(count),
@@ -83,9 +83,7 @@ impl Targets {
             layout: Layout::default(),
         };
         for Target { center, extent, prior } in list {
-            for (column, component) in targets.centers.iter_mut().zip(center).take(dimensions) {
-                column.push(component);
-            }
+            targets.centers.push(center);
             targets.priors.push(prior);
             targets.extent_of.push(extent as u32);
         }
@@ -102,8 +100,7 @@ impl Targets {
     /// The centre of one.
     #[must_use]
     pub fn center(&self, i: usize) -> Vector {
-        let [x, y, z] = &self.centers;
-        [x.get(i), y.get(i), z.get(i)]
+        self.centers[i]
     }
 
     /// The place of a target's extent in the list of them: equal for targets that have one.
@@ -139,8 +136,7 @@ impl Targets {
     /// The centres, and where each has its own the variances, of some blocks.
     #[must_use]
     pub fn places(&self, blocks: &Range<usize>) -> Places<'_> {
-        let [x, y, z] = &self.centers;
-        self.layout.places([x.blocks(), y.blocks(), z.blocks()], blocks, [0.0; AXES])
+        self.layout.places(blocks, [0.0; AXES])
     }
 
     /// Those of one extent together; where an extent has few, among others that are alike in being separable.
@@ -160,9 +156,9 @@ impl Targets {
             }
         }
         self.place(&pool, None);
-        let Self { centers: [x, y, z], extents, extent_of, layout, .. } = self;
-        let coordinates = [x.blocks(), y.blocks(), z.blocks()];
-        layout.finish(extent_of.len(), coordinates, &|i, axis| extents[extent_of[i] as usize].variance(axis, axis));
+        let Self { dimensions, centers, extents, extent_of, layout, .. } = self;
+        let variance = |i: usize, axis| extents[extent_of[i] as usize].variance(axis, axis);
+        layout.finish((centers.len(), *dimensions), &|i, axis| centers[i][axis], &variance);
     }
 
     fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {

@@ -7,20 +7,14 @@ use crate::value::{Node, Value};
 use std::sync::Arc;
 
 impl Predictor {
-    fn read_destination(&self, value: &Value) -> Result<Destination> {
-        Destination::read(&Node::root(value, "destination"), self.dimensions(), self.states())
-    }
-
     /// Adds a destination at the end, in mid-movement too.
     ///
     /// # Errors
     /// Those of a scenario's destination; `duplicate-id`; `method-accumulates` in mid-movement where the method, or a motion
     /// model that depends on the destination, accumulates for each of them. Nothing has changed then.
     pub fn add_destination(&mut self, destination: &Value) -> Result<()> {
-        let destination = self.read_destination(destination)?;
-        let mut changed = (*self.destinations).clone();
-        changed.add(&destination)?;
-        self.replace(changed)
+        let destination = Destination::read(&Node::root(destination, "destination"), self.dimensions())?;
+        self.replace(self.destinations.with(destination, self.states())?)
     }
 
     /// Puts another destination in the place of `id`; it keeps the id, and `destination` may leave it out.
@@ -43,10 +37,8 @@ impl Predictor {
                 }
             }
         }
-        let destination = self.read_destination(&named)?;
-        let mut changed = (*self.destinations).clone();
-        changed.update(i, &destination)?;
-        self.replace(changed)
+        let destination = Destination::read(&Node::root(&named, "destination"), self.dimensions())?;
+        self.replace(self.destinations.with_replaced(i, destination, self.states())?)
     }
 
     /// Takes a destination out.
@@ -55,9 +47,7 @@ impl Predictor {
     /// `unknown-id`, `no-destinations` for the last one, and as [`Predictor::add_destination`].
     pub fn remove_destination(&mut self, id: &str) -> Result<()> {
         let i = self.destinations.index_of(id)?;
-        let mut changed = (*self.destinations).clone();
-        changed.remove(i)?;
-        self.replace(changed)
+        self.replace(self.destinations.without(i)?)
     }
 
     /// Sets all destinations at once, a scenario's list of them; ids that stay keep their state.
@@ -70,8 +60,7 @@ impl Predictor {
         self.replace(changed)
     }
 
-    fn replace(&mut self, mut changed: Destinations) -> Result<()> {
-        changed.renumber();
+    fn replace(&mut self, changed: Destinations) -> Result<()> {
         self.scenario.check_destinations(&changed)?;
         if self.movement.is_none() {
             self.destinations = Arc::new(changed);
@@ -94,7 +83,7 @@ impl Predictor {
     fn origins(&self, changed: &Destinations) -> Result<Vec<usize>> {
         let find = |j: usize| {
             let found =
-                self.destinations.find(changed.id(j)).filter(|&i| *self.destinations.center(i) == *changed.center(j));
+                self.destinations.find(changed.id(j)).filter(|&i| self.destinations.center(i) == changed.center(j));
             found.ok_or_else(|| {
                 let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
                                evidence accumulates for each of them";

@@ -6,7 +6,7 @@ use crate::scenario::Engine;
 
 impl Predictor {
     /// Destinations, and bytes of their ids; and of the papers' methods numbers for each destination and arrival time, numbers for
-    /// each arrival time of a kind of destinations, those that a movement keeps, those that a snapshot has.
+    /// each arrival time of a class of destinations, those that a movement keeps, those that a snapshot has.
     pub(crate) fn sizes(&self) -> [f64; 6] {
         let [pairs, nodes, kept, saved] = self.numbers();
         let ids: usize = self.ids().map(str::len).sum();
@@ -16,13 +16,13 @@ impl Predictor {
     fn numbers(&self) -> [f64; 4] {
         let (scenario, destinations) = (&self.scenario, &self.destinations);
         let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { return [0.0; 4] };
-        let prior = |kind: usize| destinations.kinds()[kind].arrival().unwrap_or(arrival);
-        let points = |kind: usize| prior(kind).points(quadrature) as f64;
+        let prior = |class: usize| destinations.classes()[class].arrival().unwrap_or(arrival);
+        let points = |class: usize| prior(class).points(quadrature) as f64;
         let mut pairs = 0.0;
-        let mut nodes: f64 = (0..destinations.kinds().len()).map(points).sum();
-        for kind in (0..destinations.len()).map(|i| destinations.kind_number(i)) {
-            pairs += points(kind);
-            nodes += if prior(kind).needs_distance() { points(kind) } else { 0.0 };
+        let mut nodes: f64 = (0..destinations.classes().len()).map(points).sum();
+        for class in (0..destinations.len()).map(|i| destinations.class_number(i)) {
+            pairs += points(class);
+            nodes += if prior(class).needs_distance() { points(class) } else { 0.0 };
         }
         let candidates = scenario.motion.candidates.len() as f64;
         let states = scenario.motion.states() as f64;

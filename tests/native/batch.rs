@@ -5,7 +5,7 @@ use crate::support::{numbers, value};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use serde_json::Value as Json;
 use whither::model::motion::MotionModel;
-use whither::{Destination, Gaussian, Scenario};
+use whither::{Gaussian, Scenario};
 
 /// The states at all times, the observations and the endpoint as one Gaussian vector, written down from the process: `x_k =
 /// Phi_k x_1 + offsets + noises`, all covariances by summing over the noises that two states share. No filter, no recursion.
@@ -57,12 +57,13 @@ impl<'a> Batch<'a> {
     /// Candidate, arrival time, and log of weight times likelihood.
     fn nodes(&self, i: usize) -> Vec<(usize, f64, f64)> {
         let whither::scenario::Engine::Papers { arrival, quadrature, .. } = &self.scenario.engine else { panic!() };
-        let destination = self.scenario.destinations.get(i);
+        let destination = self.endpoint(i);
         let first = &self.problem.observations[0];
         let start = self.first_position(first);
         let d = self.scenario.motion.dimensions();
-        let distance = destination.mean[..d].iter().zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
-        let grid = destination.kind.arrival().unwrap_or(arrival).grid(quadrature, distance, destination.kind.extent(d));
+        let distance = destination.mean.iter().take(d).zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
+        let class = self.scenario.destinations.class(i);
+        let grid = class.arrival().unwrap_or(arrival).grid(quadrature, distance, class.extent(d));
         let last = self.problem.observations[self.problem.observations.len() - 1].time - first.time;
         let conditioned = usize::from(self.problem.scenario["initial"]["evidence"] != Json::Bool(true));
         let mut nodes = Vec::new();
@@ -81,8 +82,14 @@ impl<'a> Batch<'a> {
         nodes
     }
 
+    /// `N(a_i, S_i)`.
+    fn endpoint(&self, i: usize) -> Gaussian {
+        let destinations = &self.scenario.destinations;
+        Gaussian { mean: DVector::from_vec(destinations.mean(i)), covariance: destinations.class(i).covariance() }
+    }
+
     fn state_given(&self, candidate: usize, i: usize, arrival: f64, at: f64) -> Gaussian {
-        let destination = self.scenario.destinations.get(i);
+        let destination = self.endpoint(i);
         let model = self.scenario.motion.candidates[candidate].model.as_ref();
         let stack = Stack::new(self, model, &destination, &[at], arrival);
         let (y, g, v) = stack.observed(self, &destination, self.problem.observations.len());
@@ -142,13 +149,13 @@ struct Stack {
 }
 
 impl Stack {
-    fn new(batch: &Batch<'_>, model: &dyn MotionModel, destination: &Destination, more: &[f64], arrival: f64) -> Self {
+    fn new(batch: &Batch<'_>, model: &dyn MotionModel, destination: &Gaussian, more: &[f64], arrival: f64) -> Self {
         let (s, d) = (model.states(), model.dimensions());
         let observations = &batch.problem.observations;
         let mut times: Vec<f64> = observations.iter().map(|o| o.time - observations[0].time).collect();
         times.extend(more);
         times.push(arrival);
-        let center = DVector::from_column_slice(&destination.mean[..d]);
+        let center = destination.mean.rows(0, d).into_owned();
         let (first_mean, first_covariance) = batch.initial();
         let (mut means, mut covariances) = (vec![first_mean], vec![first_covariance]);
         let steps: Vec<_> = times.windows(2).map(|pair| model.transition(pair[1] - pair[0])).collect();
@@ -181,7 +188,7 @@ impl Stack {
     }
 
     /// The endpoint made independent of the start: what lies between keeps its density given both.
-    fn bridge(&mut self, destination: &Destination) {
+    fn bridge(&mut self, destination: &Gaussian) {
         let (s, l, n) = (self.states, destination.mean.len(), self.mean.len());
         let endpoints =
             DMatrix::from_fn(s + l, n, |r, c| f64::from(u8::from(c == if r < s { r } else { n - s + r - s })));
@@ -189,24 +196,24 @@ impl Stack {
         let gain = &self.covariance * endpoints.transpose() * between.clone().try_inverse().unwrap();
         let mut wanted = DVector::zeros(s + l);
         wanted.rows_mut(0, s).copy_from(&self.mean.rows(0, s));
-        wanted.rows_mut(s, l).copy_from_slice(&destination.mean);
+        wanted.rows_mut(s, l).copy_from(&destination.mean);
         let mut apart = DMatrix::zeros(s + l, s + l);
         apart.view_mut((0, 0), (s, s)).copy_from(&self.covariance.view((0, 0), (s, s)));
-        apart.view_mut((s, s), (l, l)).copy_from(&destination.kind.covariance());
+        apart.view_mut((s, s), (l, l)).copy_from(&destination.covariance);
         self.mean = &self.mean + &gain * (wanted - &endpoints * &self.mean);
         self.covariance = &self.covariance + &gain * (apart - between) * gain.transpose();
     }
 
     /// The first `count` observations, and the pseudo-observation of the endpoint where there is one.
-    fn observed(&self, batch: &Batch<'_>, destination: &Destination, count: usize) -> Linear {
+    fn observed(&self, batch: &Batch<'_>, destination: &Gaussian, count: usize) -> Linear {
         let observations = batch.problem.observations[..count].iter().enumerate();
         let mut parts: Vec<(usize, Linear)> =
             observations.filter_map(|(k, observed)| batch.measured(observed).map(|linear| (k, linear))).collect();
         if !batch.bridges() {
             let (s, l) = (self.states, destination.mean.len());
             let endpoint = DMatrix::from_fn(l, s, |r, c| f64::from(u8::from(r == c)));
-            let mean = DVector::from_column_slice(&destination.mean);
-            parts.push((self.blocks - 1, (mean, endpoint, destination.kind.covariance())));
+            let (mean, covariance) = (destination.mean.clone(), destination.covariance.clone());
+            parts.push((self.blocks - 1, (mean, endpoint, covariance)));
         }
         let rows = parts.iter().map(|(_, (y, ..))| y.len()).sum();
         let mut y = DVector::zeros(rows);
@@ -223,7 +230,7 @@ impl Stack {
     }
 
     /// `log p(y_1:count)`, with the pseudo-observation where there is one.
-    fn log_density(&self, batch: &Batch<'_>, destination: &Destination, count: usize) -> f64 {
+    fn log_density(&self, batch: &Batch<'_>, destination: &Gaussian, count: usize) -> f64 {
         let (y, g, v) = self.observed(batch, destination, count);
         let error = &y - &g * &self.mean;
         let root = Cholesky::new(&g * &self.covariance * g.transpose() + v).unwrap();

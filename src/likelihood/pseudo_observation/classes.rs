@@ -122,11 +122,11 @@ pub struct Classes {
     pub endpoints: Vec<ClassEndpoint>,
     /// The classes; those that share nodes and endpoint follow one another.
     pub classes: Vec<Class>,
-    /// Prior weights; empty where those that the destinations have can be read unchanged.
-    priors: Vec<Block>,
+    /// Prior weights, zero in padding.
+    pub priors: Vec<Block>,
     /// What the prior weights sum to.
     pub total: f64,
-    /// Their places in the arrays.
+    /// The order of the destinations in the arrays, and their places.
     pub layout: Layout,
 }
 
@@ -152,7 +152,7 @@ impl Classes {
         });
         let mut classes = Self {
             dimensions: d,
-            separable: separable && !destinations.kinds().iter().any(|kind| mixes(&kind.covariance())),
+            separable: separable && !destinations.classes().iter().any(|class| mixes(&class.covariance())),
             nodes: nodes.collect(),
             endpoints: Vec::new(),
             classes: Vec::new(),
@@ -175,40 +175,31 @@ impl Classes {
             }
             classes.place(&pool, (nodes, endpoint, None));
         }
-        classes.layout.finish(destinations.len(), destinations.coordinates(), &|i, axis| {
-            destinations.kind(i).variance(axis, axis)
+        classes.layout.finish((destinations.len(), d), &|i, axis| destinations.center(i)[axis], &|i, axis| {
+            destinations.class(i).variance(axis, axis)
         });
-        classes.keep_priors(destinations);
+        classes.gather_priors(destinations);
         if classes.separable {
             let mut all = std::mem::take(&mut classes.classes);
             for class in all.iter_mut().filter(|class| class.size.is_some()) {
-                let places = classes.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]);
-                class.boxes = bounding_boxes(&places, &class.blocks, classes.priors_in(destinations, &class.blocks));
+                let places = classes.layout.places(&class.blocks, [0.0; AXES]);
+                class.boxes = bounding_boxes(&places, &class.blocks, &classes.priors[class.blocks.clone()]);
             }
             classes.classes = all;
         }
         classes
     }
 
-    /// Writes the prior weights down where they cannot be read from the destinations: in another order, or beyond what leaves
-    /// room for the rest of a product.
-    fn keep_priors(&mut self, destinations: &Destinations) {
-        if self.layout.is_own() && IN_RANGE.contains(&self.total) {
-            return;
-        }
-        let total = std::mem::replace(&mut self.total, 1.0);
-        let prior = |i: usize, stands: bool| if stands { destinations.priors()[i] / total } else { 0.0 };
-        self.priors = self.layout.gather(&prior);
-    }
-
-    /// The prior weights, zero where a block is filled up.
-    pub fn priors<'a>(&'a self, destinations: &'a Destinations) -> &'a [Block] {
-        if self.priors.is_empty() { destinations.prior_blocks() } else { &self.priors }
-    }
-
-    /// Those of some blocks.
-    pub fn priors_in<'a>(&'a self, destinations: &'a Destinations, blocks: &Range<usize>) -> &'a [Block] {
-        self.priors(destinations).get(blocks.clone()).unwrap_or_default()
+    /// Gathers the prior weights, normalised unless they are in the order of the destinations and leave room for the rest of a
+    /// product as they are.
+    fn gather_priors(&mut self, destinations: &Destinations) {
+        let total = if self.layout.keeps_order() && IN_RANGE.contains(&self.total) {
+            1.0
+        } else {
+            std::mem::replace(&mut self.total, 1.0)
+        };
+        let priors = destinations.priors();
+        self.priors = self.layout.gather(&|i, is_member| if is_member { priors[i] / total } else { 0.0 });
     }
 
     /// By nodes and endpoint, those of one size together.
@@ -216,7 +207,7 @@ impl Classes {
         let (mut known_endpoints, mut known) = (HashMap::new(), HashMap::new());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
-            let covariance = &destinations.kinds()[group.kind].covariance();
+            let covariance = &destinations.classes()[group.class].covariance();
             let mut members: Vec<(usize, Draft)> = Vec::new();
             let mut here = HashMap::new();
             for &i in &group.members {

@@ -14,7 +14,6 @@ use super::pruning::Bounds;
 use super::separable::{Axes, MOST};
 use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weighted_sums_in};
 use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
-use crate::model::destination::Destinations;
 use std::ops::Range;
 
 /// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
@@ -137,7 +136,6 @@ impl Work {
     #[inline(never)]
     pub fn weighted_sums(
         &mut self,
-        destinations: &Destinations,
         classes: &Classes,
         class: &Class,
         origin: [f64; AXES],
@@ -162,8 +160,8 @@ impl Work {
             weights[class.blocks.clone()].fill(ZERO);
         }
         let mut part = |blocks: &Range<usize>| {
-            let places = classes.layout.places(destinations.coordinates(), blocks, origin);
-            let (priors, weights) = (classes.priors_in(destinations, blocks), &mut weights[blocks.clone()]);
+            let places = classes.layout.places(blocks, origin);
+            let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
             match class.size {
                 None => weighted_sums_in(d, owns, &places, shift, priors, weights),
                 Some(_) if round => weighted_sums_in(d, balls, &places, shift, priors, weights),
@@ -175,8 +173,8 @@ impl Work {
 
     /// Writes `log2` of the sums of a class, whatever their size.
     #[inline(never)]
-    pub fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, class: &Class, logs: &mut [Block]) {
-        let places = classes.layout.places(destinations.coordinates(), &class.blocks, [0.0; AXES]);
+    pub fn log2_sums(&mut self, classes: &Classes, class: &Class, logs: &mut [Block]) {
+        let places = classes.layout.places(&class.blocks, [0.0; AXES]);
         let (d, logs) = (classes.dimensions, &mut logs[class.blocks.clone()]);
         match class.size {
             None => {

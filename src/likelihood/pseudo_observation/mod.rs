@@ -114,14 +114,14 @@ impl Engine for PseudoObservation {
 
     fn probabilities(&mut self, none: f64, posterior: &mut Posterior) {
         let destinations = &self.destinations;
-        match self.filters.evidence_mut().probabilities(destinations, none, &mut posterior.probabilities) {
+        match self.filters.evidence_mut().probabilities(none, &mut posterior.probabilities) {
             Some(none) => posterior.none = none,
             None => posterior.set_to_prior(destinations.priors(), none),
         }
     }
 
     fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
-        self.filters.evidence_mut().log_likelihoods(&self.destinations, into);
+        self.filters.evidence_mut().log_likelihoods(into);
     }
 
     fn arrival(&mut self, shares: Shares<'_>) -> Option<ArrivalTime> {

@@ -38,11 +38,10 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
     let mut places: Vec<(u64, u32)> = members.iter().map(|&i| (0, i)).collect();
     for axis in 0..d {
-        let own = destinations.coordinates()[axis].as_flattened();
-        let center = |i: u32| own.get(i as usize).copied().unwrap_or_default();
-        let (low, high) = edges(members.iter().map(|&i| center(i)));
-        for (place, i) in &mut places {
-            let share = ((center(*i) - low) / (high - low) * 65_535.0) as u64;
+        let centers: Vec<f64> = members.iter().map(|&i| destinations.center(i as usize)[axis]).collect();
+        let (low, high) = edges(centers.iter().copied());
+        for ((place, _), center) in places.iter_mut().zip(centers) {
+            let share = ((center - low) / (high - low) * 65_535.0) as u64;
             *place |= (0..16).map(|bit| (share >> bit & 1) << (bit * d + axis)).sum::<u64>();
         }
     }

@@ -236,14 +236,14 @@ impl Telescoped {
 
     /// Liang (3) and (6): the probabilities of the destinations, in their order, and that of none of them, whose prior is
     /// `none`. None where the priors remain: at the first observation, and where there is no likelihood that is a number above
-    /// zero. `destinations` are those that the filters began with or were last given.
-    pub fn probabilities(&mut self, destinations: &Destinations, none: f64, into: &mut Vec<f64>) -> Option<f64> {
+    /// zero.
+    pub fn probabilities(&mut self, none: f64, into: &mut Vec<f64>) -> Option<f64> {
         if !self.has_evidence() {
             return None;
         }
         let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
-        let sum = self.sum(destinations, &classes, classes.layout.room(&mut aside, into));
-        classes.layout.settle(&aside, into);
+        let sum = self.sum(&classes, classes.layout.buffer(&mut aside, into));
+        classes.layout.scatter(&aside, into);
         self.aside = aside;
         let sum = sum?;
         // as if the priors summed to one
@@ -264,31 +264,31 @@ impl Telescoped {
     }
 
     /// Writes the weights, under another shift where the present one leads out of range, and returns their sum.
-    fn sum(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
-        let mut sum = self.weights(destinations, classes, weights);
+    fn sum(&mut self, classes: &Classes, weights: &mut [Block]) -> Option<f64> {
+        let mut sum = self.weights(classes, weights);
         if !IN_RANGE.contains(&(sum / classes.total)) {
-            self.log2_sums(destinations, classes, weights);
-            let logs = weights.as_flattened().iter().zip(classes.priors(destinations).as_flattened());
+            self.log2_sums(classes, weights);
+            let logs = weights.as_flattened().iter().zip(classes.priors.as_flattened());
             let top = logs.filter(|(_, prior)| **prior > 0.0).map(|(log, prior)| log + prior.log2());
             let top = top.fold(f64::NEG_INFINITY, f64::max) - classes.total.log2();
             if !top.is_finite() {
                 return None;
             }
             self.shift = top.round();
-            sum = self.weights(destinations, classes, weights);
+            sum = self.weights(classes, weights);
         }
         (sum > 0.0 && sum.is_finite()).then_some(sum)
     }
 
-    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order; `destinations` as in [`Telescoped::probabilities`].
-    pub fn log_likelihoods(&mut self, destinations: &Destinations, into: &mut Vec<f64>) {
+    /// `ln p(y_2:k | y_1, D_i)` for every destination, in their order.
+    pub fn log_likelihoods(&mut self, into: &mut Vec<f64>) {
         let (classes, mut aside) = (Arc::clone(&self.classes), std::mem::take(&mut self.aside));
-        let logs = classes.layout.room(&mut aside, into);
+        let logs = classes.layout.buffer(&mut aside, into);
         logs.fill([0.0; WIDTH]);
         if self.has_evidence() {
-            self.log2_sums(destinations, &classes, logs);
+            self.log2_sums(&classes, logs);
         }
-        classes.layout.settle(&aside, into);
+        classes.layout.scatter(&aside, into);
         self.aside = aside;
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         for log in into {
@@ -312,7 +312,7 @@ impl Telescoped {
     }
 
     /// Writes the weights under the present shift, and returns their sum.
-    fn weights(&mut self, destinations: &Destinations, classes: &Classes, weights: &mut [Block]) -> f64 {
+    fn weights(&mut self, classes: &Classes, weights: &mut [Block]) -> f64 {
         let origin = self.candidates.first().map_or([0.0; 3], Candidate::position);
         let mut total = 0.0;
         let mut prepared = None;
@@ -321,19 +321,19 @@ impl Telescoped {
                 self.prepare(classes, class);
                 prepared = Some((class.nodes, class.endpoint));
             }
-            total += self.work.weighted_sums(destinations, classes, class, origin, self.shift, weights);
+            total += self.work.weighted_sums(classes, class, origin, self.shift, weights);
         }
         total
     }
 
-    fn log2_sums(&mut self, destinations: &Destinations, classes: &Classes, logs: &mut [Block]) {
+    fn log2_sums(&mut self, classes: &Classes, logs: &mut [Block]) {
         let mut prepared = None;
         for class in &classes.classes {
             if prepared != Some((class.nodes, class.endpoint)) {
                 self.prepare(classes, class);
                 prepared = Some((class.nodes, class.endpoint));
             }
-            self.work.log2_sums(destinations, classes, class, logs);
+            self.work.log2_sums(classes, class, logs);
         }
     }
 

@@ -84,7 +84,7 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
     let first = drawn(random, &before.mean, &before.covariance);
     let first_observed = observe(&first, random);
     let (mean, spread) =
-        (scenario.destinations.mean(destination), &scenario.destinations.kind(destination).covariance());
+        (scenario.destinations.mean(destination), &scenario.destinations.class(destination).covariance());
     let target = DVector::from_vec(mean);
     let (mut state, end) = match family {
         Family::Independent => (first, drawn(random, &target, spread)),

@@ -18,7 +18,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let first = first_posterior(scenario, movement);
     let noise = scenario.observation.noise().clone();
     let observation = DMatrix::from_fn(noise.nrows(), s, |i, j| f64::from(u8::from(i == j)));
-    let extent = scenario.destinations.kinds()[0].covariance();
+    let extent = scenario.destinations.classes()[0].covariance();
     let end = |i: usize| DVector::from_vec(scenario.destinations.mean(i));
     let start_time = movement.observations[0].0;
     let mut state = first.clone();

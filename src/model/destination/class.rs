@@ -1,53 +1,42 @@
-//! What many destinations have in common.
+//! What destinations of the same size share.
 
 use super::Arrival;
 use crate::math::kernel::mixture::AXES;
 use nalgebra::{DMatrix, DVector};
 
-/// What many destinations have in common: the endpoint's covariance `S_i`, its size, the arrival prior.
-///
-/// ```
-/// use whither::{Destination, Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "id": "map", "mean": [500], "covariance": [[48]] }"#).unwrap();
-/// let kind = Destination::read(&Node::root(&value, "destination"), 1, 2).unwrap().kind;
-/// assert_eq!((kind.size(), kind.length()), (None, 1));
-/// assert_eq!(kind.extent(1), 24.0); // an even density 24 wide has the variance 24^2 / 12 = 48
-/// ```
+/// What destinations share whose endpoints differ in their means alone: the endpoint's covariance `S_i` and the arrival prior,
+/// so that every matrix serves all of them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kind {
+pub struct EndpointClass {
     shape: Shape,
     arrival: Option<Box<Arrival>>,
 }
 
-/// Boxes are many and kept small; what they say is told from their sides.
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
-    /// The sides, zero in axes that there are not, and the deviation of the velocity on arrival, zero where none is given.
-    Box { sides: [f64; AXES], end_velocity: f64 },
+    /// A uniform density over a box, with the deviation of the velocity on arrival.
+    Box { size: [f64; AXES], dimensions: usize, end_velocity: Option<f64> },
     /// `S_i`, `l` by `l`.
-    Covariance(Box<DMatrix<f64>>),
+    Gaussian(Box<DMatrix<f64>>),
 }
 
-impl Kind {
-    /// An even density over a box, with the deviation of the velocity on arrival.
-    pub(super) fn of_box(size: &[f64], end_velocity: Option<f64>, arrival: Option<Arrival>) -> Self {
-        let mut sides = [0.0; AXES];
-        sides.iter_mut().zip(size).for_each(|(side, given)| *side = *given);
-        let shape = Shape::Box { sides, end_velocity: end_velocity.unwrap_or(0.0) };
-        Self { shape, arrival: arrival.map(Box::new) }
+impl EndpointClass {
+    pub(super) fn of_box(given: &[f64], end_velocity: Option<f64>, arrival: Option<Arrival>) -> Self {
+        let mut size = [0.0; AXES];
+        size.iter_mut().zip(given).for_each(|(side, given)| *side = *given);
+        Self { shape: Shape::Box { size, dimensions: given.len(), end_velocity }, arrival: arrival.map(Box::new) }
     }
 
-    /// A Gaussian.
     pub(super) fn of_covariance(covariance: DMatrix<f64>, arrival: Option<Arrival>) -> Self {
-        Self { shape: Shape::Covariance(Box::new(covariance)), arrival: arrival.map(Box::new) }
+        Self { shape: Shape::Gaussian(Box::new(covariance)), arrival: arrival.map(Box::new) }
     }
 
     /// How many components of the state the endpoint names, `l`.
     #[must_use]
     pub fn length(&self) -> usize {
         match &self.shape {
-            Shape::Box { sides, end_velocity } => dimensions(sides) * if *end_velocity > 0.0 { 2 } else { 1 },
-            Shape::Covariance(covariance) => covariance.nrows(),
+            Shape::Box { dimensions, end_velocity, .. } => dimensions * if end_velocity.is_some() { 2 } else { 1 },
+            Shape::Gaussian(covariance) => covariance.nrows(),
         }
     }
 
@@ -55,11 +44,11 @@ impl Kind {
     #[must_use]
     pub fn variance(&self, row: usize, column: usize) -> f64 {
         match &self.shape {
-            Shape::Covariance(covariance) => covariance.get((row, column)).copied().unwrap_or_default(),
+            Shape::Gaussian(covariance) => covariance.get((row, column)).copied().unwrap_or_default(),
             Shape::Box { .. } if row != column => 0.0,
-            Shape::Box { sides, end_velocity } => match sides.get(row) {
-                Some(side) if *side > 0.0 => side * side / 12.0,
-                _ if row < self.length() => end_velocity * end_velocity,
+            Shape::Box { size, dimensions, end_velocity } => match (size.get(row), end_velocity) {
+                (Some(side), _) if row < *dimensions => side * side / 12.0,
+                (_, Some(deviation)) if row < 2 * dimensions => deviation * deviation,
                 _ => 0.0,
             },
         }
@@ -69,7 +58,7 @@ impl Kind {
     #[must_use]
     pub fn covariance(&self) -> DMatrix<f64> {
         match &self.shape {
-            Shape::Covariance(covariance) => DMatrix::clone(covariance),
+            Shape::Gaussian(covariance) => DMatrix::clone(covariance),
             Shape::Box { .. } => DMatrix::from_diagonal(&DVector::from_fn(self.length(), |i, _| self.variance(i, i))),
         }
     }
@@ -78,8 +67,8 @@ impl Kind {
     #[must_use]
     pub fn size(&self) -> Option<&[f64]> {
         match &self.shape {
-            Shape::Box { sides, .. } => sides.get(..dimensions(sides)),
-            Shape::Covariance(_) => None,
+            Shape::Box { size, dimensions, .. } => size.get(..*dimensions),
+            Shape::Gaussian(_) => None,
         }
     }
 
@@ -87,8 +76,8 @@ impl Kind {
     #[must_use]
     pub fn end_velocity(&self) -> Option<f64> {
         match self.shape {
-            Shape::Box { end_velocity, .. } if end_velocity > 0.0 => Some(end_velocity),
-            _ => None,
+            Shape::Box { end_velocity, .. } => end_velocity,
+            Shape::Gaussian(_) => None,
         }
     }
 
@@ -112,15 +101,15 @@ impl Kind {
         given.unwrap_or_else(|| (12.0 * self.variance(axis, axis)).sqrt())
     }
 
-    /// Equal kinds have equal fingerprints, and only they: all their numbers, bit by bit.
+    /// Equal classes have equal fingerprints, and only they: all their numbers, bit by bit.
     pub(super) fn fingerprint(&self) -> Vec<u64> {
         let mut bits = Vec::new();
         match &self.shape {
-            Shape::Box { sides, end_velocity } => {
-                bits.push(end_velocity.to_bits());
-                bits.extend(sides.iter().map(|side| side.to_bits()));
+            Shape::Box { size, end_velocity, .. } => {
+                bits.push(end_velocity.unwrap_or(0.0).to_bits());
+                bits.extend(size.iter().map(|side| side.to_bits()));
             }
-            Shape::Covariance(covariance) => {
+            Shape::Gaussian(covariance) => {
                 bits.push(u64::MAX);
                 bits.extend(covariance.iter().map(|x| x.to_bits()));
             }
@@ -130,9 +119,4 @@ impl Kind {
         }
         bits
     }
-}
-
-/// How many axes a box has.
-fn dimensions(sides: &[f64; AXES]) -> usize {
-    sides.iter().take_while(|side| **side > 0.0).count()
 }

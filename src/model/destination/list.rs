@@ -1,0 +1,331 @@
+//! The destinations of a predictor: found by their ids, and by the classes that share their matrices.
+
+use super::{Destination, Endpoint, EndpointClass};
+use crate::error::{Code, Error, Result};
+use crate::value::{Node, Path, Value, number, quote};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// More destinations than this are an error, so that no input can exhaust the memory.
+pub const MOST_DESTINATIONS: usize = 1_000_000;
+
+/// The destinations of a predictor, validated, in order.
+#[derive(Clone, Debug)]
+pub struct Destinations {
+    dimensions: usize,
+    /// The ids, one after the other: thousands of small allocations that stay would scatter all later ones over the memory.
+    ids: String,
+    endpoints: Vec<Endpoint>,
+    /// In the order of their first destinations; each has one.
+    classes: Vec<EndpointClass>,
+    /// Their places, sorted by id.
+    by_id: Vec<u32>,
+    /// The prior weights in force: those that were given, or learnt.
+    priors: Vec<f64>,
+}
+
+impl Destinations {
+    /// The destinations for a motion model of `states` components in `dimensions` axes.
+    ///
+    /// # Errors
+    /// Those of [`Destination`], at `destinations[i]`; `no-destinations`, `duplicate-id`, `too-large`, and `out-of-range` where no
+    /// prior is above zero.
+    pub fn new(list: Vec<Destination>, dimensions: usize, states: usize) -> Result<Self> {
+        Self::collect(&Path::root("destinations"), list.into_iter().map(Ok), dimensions, states)
+    }
+
+    /// Reads a list of them.
+    ///
+    /// # Errors
+    /// As [`Destinations::new`], and those of reading.
+    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
+        let items = node.items()?;
+        Self::collect(node.place(), items.map(|item| Destination::read(&item, dimensions)), dimensions, states)
+    }
+
+    fn collect(
+        path: &Path<'_>,
+        list: impl ExactSizeIterator<Item = Result<Destination>>,
+        dimensions: usize,
+        states: usize,
+    ) -> Result<Self> {
+        let count = list.len();
+        if count == 0 {
+            let message = "must have at least one destination, has none";
+            return Err(Error::new(Code::NoDestinations, path.to_string(), message));
+        }
+        if count > MOST_DESTINATIONS {
+            return Err(too_many(path, &format!(", has {count}")));
+        }
+        let mut all = Self {
+            dimensions,
+            ids: String::new(),
+            endpoints: Vec::with_capacity(count),
+            classes: Vec::new(),
+            by_id: (0..count as u32).collect(),
+            priors: Vec::with_capacity(count),
+        };
+        let mut classes: HashMap<Vec<u64>, u32> = HashMap::new();
+        for (i, destination) in list.enumerate() {
+            let path = path.index(i);
+            let destination = destination?;
+            all.ids.push_str(&destination.id);
+            let (mut endpoint, class) = destination.check(&path, dimensions, states)?;
+            endpoint.id_end = all.ids.len();
+            // most are of the class before, which is sooner compared than looked up
+            endpoint.class = match all.endpoints.last() {
+                Some(before) if all.classes[before.class as usize] == class => before.class,
+                _ => *classes.entry(class.fingerprint()).or_insert_with(|| {
+                    all.classes.push(class);
+                    all.classes.len() as u32 - 1
+                }),
+            };
+            all.priors.push(endpoint.prior);
+            all.endpoints.push(endpoint);
+        }
+        all.classes.shrink_to_fit();
+        let mut by_id = std::mem::take(&mut all.by_id);
+        by_id.sort_by_key(|&i| all.id(i as usize));
+        for pair in by_id.windows(2) {
+            let [first, second] = [pair[0] as usize, pair[1] as usize];
+            if all.id(first) == all.id(second) {
+                return Err(duplicate(&path.index(second).key("id"), all.id(second), first));
+            }
+        }
+        all.by_id = by_id;
+        all.ids.shrink_to_fit();
+        all.check_priors(path)?;
+        Ok(all)
+    }
+
+    fn check_priors(&self, path: &Path<'_>) -> Result<()> {
+        let total: f64 = self.given_priors().sum();
+        if total > 0.0 && total.is_finite() {
+            return Ok(());
+        }
+        let message = format!("the priors must have a finite sum above 0, it is {}", number(total));
+        Err(Error::new(Code::OutOfRange, path.to_string(), message))
+    }
+
+    /// Adds a destination at the end.
+    ///
+    /// # Errors
+    /// Those of [`Destination`], at `destination`; `duplicate-id`, `too-large`.
+    pub fn with(&self, destination: Destination, states: usize) -> Result<Self> {
+        let id = destination.id.clone();
+        let (mut endpoint, class) = destination.check(&Path::root("destination"), self.dimensions, states)?;
+        let place = match self.search(&id) {
+            Ok(place) => return Err(duplicate(&Path::root("id"), &id, self.by_id[place] as usize)),
+            Err(place) => place,
+        };
+        if self.len() >= MOST_DESTINATIONS {
+            return Err(too_many(&Path::root("destinations"), ""));
+        }
+        let mut changed = self.clone();
+        changed.by_id.insert(place, self.len() as u32);
+        changed.ids.push_str(&id);
+        endpoint.id_end = changed.ids.len();
+        changed.endpoints.push(endpoint);
+        changed.reclassify(self.len(), Some(class));
+        Ok(changed)
+    }
+
+    /// Puts another destination in the place of `i`, under the same id.
+    ///
+    /// # Errors
+    /// Those of [`Destination`], at `destination`; `out-of-range` where no prior would be left above zero.
+    pub fn with_replaced(&self, i: usize, destination: Destination, states: usize) -> Result<Self> {
+        let (endpoint, class) = destination.check(&Path::root("destination"), self.dimensions, states)?;
+        let mut changed = self.clone();
+        changed.endpoints[i] = Endpoint { id_end: self.endpoints[i].id_end, ..endpoint };
+        changed.check_priors(&Path::root("prior"))?;
+        changed.reclassify(i, Some(class));
+        Ok(changed)
+    }
+
+    /// Takes destination `i` out; those after it move up.
+    ///
+    /// # Errors
+    /// `no-destinations` where it is the last one, `out-of-range` where no prior would be left above zero.
+    pub fn without(&self, i: usize) -> Result<Self> {
+        if self.len() == 1 {
+            return Err(Error::new(Code::NoDestinations, "id", "the last destination cannot be removed"));
+        }
+        let mut changed = self.clone();
+        changed.endpoints.remove(i);
+        let id = self.id_range(i);
+        changed.endpoints[i..].iter_mut().for_each(|endpoint| endpoint.id_end -= id.len());
+        changed.ids.drain(id);
+        changed.check_priors(&Path::root("destinations"))?;
+        changed.by_id.retain(|&j| j as usize != i);
+        changed.by_id.iter_mut().for_each(|j| *j -= u32::from(*j as usize > i));
+        changed.reclassify(i, None);
+        Ok(changed)
+    }
+
+    /// After a change: the given priors are in force, and the classes, with `class` for endpoint `i`, are numbered by their first
+    /// destinations, as reading a list does, since what is computed must not depend on how a list came about.
+    fn reclassify(&mut self, i: usize, class: Option<EndpointClass>) {
+        self.priors = self.given_priors().collect();
+        if let Some(class) = class {
+            let known = self.classes.iter().position(|known| *known == class);
+            self.endpoints[i].class = known.unwrap_or(self.classes.len()) as u32;
+            if known.is_none() {
+                self.classes.push(class);
+            }
+        }
+        let mut numbers = vec![None; self.classes.len()];
+        let mut classes = Vec::new();
+        for endpoint in &mut self.endpoints {
+            let before = endpoint.class as usize;
+            endpoint.class = *numbers[before].get_or_insert_with(|| {
+                classes.push(self.classes[before].clone());
+                classes.len() as u32 - 1
+            });
+        }
+        self.classes = classes;
+    }
+
+    /// How many there are; at least one.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.endpoints.len()
+    }
+
+    /// Never true: a predictor keeps at least one destination.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.endpoints.is_empty()
+    }
+
+    /// Spatial dimensions `d`.
+    #[must_use]
+    pub const fn dimensions(&self) -> usize {
+        self.dimensions
+    }
+
+    /// The ids, in order.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = &str> {
+        (0..self.len()).map(|i| self.id(i))
+    }
+
+    /// The id of destination `i`.
+    #[must_use]
+    pub fn id(&self, i: usize) -> &str {
+        self.ids.get(self.id_range(i)).unwrap_or_default()
+    }
+
+    fn id_range(&self, i: usize) -> Range<usize> {
+        let start = if i == 0 { 0 } else { self.endpoints[i - 1].id_end };
+        start..self.endpoints[i].id_end
+    }
+
+    /// The place of an id in `by_id`, or that where it would be.
+    fn search(&self, id: &str) -> std::result::Result<usize, usize> {
+        self.by_id.binary_search_by_key(&id, |&i| self.id(i as usize))
+    }
+
+    /// The place of a destination in the order.
+    #[must_use]
+    pub fn find(&self, id: &str) -> Option<usize> {
+        self.search(id).ok().map(|place| self.by_id[place] as usize)
+    }
+
+    /// The place of a destination in the order.
+    ///
+    /// # Errors
+    /// `unknown-id`.
+    pub fn index_of(&self, id: &str) -> Result<usize> {
+        self.find(id).ok_or_else(|| {
+            let shown: Vec<String> = self.ids().take(5).map(quote).collect();
+            let more = if self.len() > 5 { ", ..." } else { "" };
+            let message = format!("no destination {}, there are {}{more}", quote(id), shown.join(", "));
+            Error::new(Code::UnknownId, "id", message)
+        })
+    }
+
+    /// The centre, the first `d` components of the endpoint's mean.
+    #[must_use]
+    pub fn center(&self, i: usize) -> &[f64] {
+        &self.endpoints[i].center[..self.dimensions]
+    }
+
+    /// The components of the endpoint's mean after the first `d`.
+    #[must_use]
+    pub fn rest(&self, i: usize) -> Vec<f64> {
+        match &*self.endpoints[i].rest {
+            [] => vec![0.0; self.class(i).length() - self.dimensions],
+            rest => rest.to_vec(),
+        }
+    }
+
+    /// The endpoint's mean `a_i`, of length `l`.
+    #[must_use]
+    pub fn mean(&self, i: usize) -> Vec<f64> {
+        [self.center(i), &self.rest(i)].concat()
+    }
+
+    /// The prior weights, not normalised.
+    #[must_use]
+    pub fn priors(&self) -> &[f64] {
+        &self.priors
+    }
+
+    /// The prior weights as they were given, not normalised.
+    pub fn given_priors(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.endpoints.iter().map(|endpoint| endpoint.prior)
+    }
+
+    /// Puts learnt priors in force, one for each destination, until the destinations change.
+    pub fn learn(&mut self, priors: Vec<f64>) {
+        self.priors = priors;
+    }
+
+    /// The class of destination `i`.
+    #[must_use]
+    pub fn class(&self, i: usize) -> &EndpointClass {
+        &self.classes[self.class_number(i)]
+    }
+
+    /// Which of the classes destination `i` is of.
+    #[must_use]
+    pub fn class_number(&self, i: usize) -> usize {
+        self.endpoints[i].class as usize
+    }
+
+    /// The classes, in the order of their first destinations.
+    #[must_use]
+    pub fn classes(&self) -> &[EndpointClass] {
+        &self.classes
+    }
+
+    /// The description of destination `i`.
+    #[must_use]
+    pub fn get(&self, i: usize) -> Destination {
+        let (endpoint, class) = (&self.endpoints[i], self.class(i));
+        let described = match class.size() {
+            Some(size) => {
+                let described = Destination::new(self.id(i), self.center(i)).size(size.to_vec());
+                class.end_velocity().into_iter().fold(described, Destination::end_velocity)
+            }
+            None => Destination::gaussian(self.id(i), self.mean(i), class.covariance()),
+        };
+        class.arrival().cloned().into_iter().fold(described.prior(endpoint.prior), Destination::arrival)
+    }
+
+    /// The scenario's own form.
+    #[must_use]
+    pub fn to_value(&self) -> Value {
+        Value::List((0..self.len()).map(|i| self.get(i).to_value()).collect())
+    }
+}
+
+fn duplicate(path: &Path<'_>, id: &str, first: usize) -> Error {
+    let message = format!("the id {} is taken by destinations[{first}]", quote(id));
+    Error::new(Code::DuplicateId, path.to_string(), message)
+}
+
+fn too_many(path: &Path<'_>, found: &str) -> Error {
+    let message = format!("must have at most {MOST_DESTINATIONS} destinations{found}");
+    Error::new(Code::TooLarge, path.to_string(), message)
+}
