@@ -1,5 +1,5 @@
-//! Two more questions to a scenario of ours: how good is "none of them", with the true target taken out of half of the
-//! tracks, and how good is the time to the entry into the target.
+//! Two more scores of a scenario of ours: of "none of them", with the true target taken out of half of the tracks, and of
+//! the time to the entry into the target.
 
 use crate::methods::Template;
 use presentation::table;
@@ -12,22 +12,22 @@ use whither::{Predictor, Scenario};
 /// The priors of "none" that are tried.
 pub const PRIORS: [f64; 2] = [0.2, 0.5];
 
-/// What one track says.
+/// The results of one track.
 #[derive(Debug, Default)]
-pub struct Answers {
+pub struct Extras {
     /// Samples, sum of absolute errors in seconds, samples that enter before the 80% interval, samples that enter after it.
     when: [f64; 4],
-    none: [NoneAnswers; PRIORS.len()],
+    none: [NoneResults; PRIORS.len()],
 }
 
 #[derive(Debug, Default)]
-struct NoneAnswers {
+struct NoneResults {
     bins: [Bin; BINS],
     /// At 90% of the approach: the probability of none, and whether the target was absent.
     late: Option<(f64, bool)>,
 }
 
-/// What a set of tracks says.
+/// The results of a set of tracks.
 #[derive(Debug, Default)]
 pub struct Sums {
     when: [f64; 4],
@@ -37,64 +37,64 @@ pub struct Sums {
     late: [Vec<(f64, bool)>; PRIORS.len()],
 }
 
-/// Runs one track; its number decides whether its target is taken out for the question of "none".
-pub fn ask(template: &Template, track: &Track, approach: usize, number: usize) -> Result<Answers, String> {
-    let told = |error: whither::Error| error.to_string();
-    let mut answers = Answers::default();
+/// Runs one track; its number decides whether its target is taken out for the score of "none".
+pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -> Result<Extras, String> {
+    let message = |error: whither::Error| error.to_string();
+    let mut results = Extras::default();
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
-    let scenario = track.scenario(&template.scenario, &template.extra).map_err(told)?;
+    let scenario = track.scenario(&template.scenario, &template.extra).map_err(message)?;
     let mut predictor = Predictor::new(&scenario);
     for sample in &samples[..approach - 1] {
-        sample.observe(&mut predictor).map_err(told)?;
+        sample.observe(&mut predictor).map_err(message)?;
         let Some(remaining) = predictor.remaining() else { continue };
         let true_time = end - sample.time;
         let one_if = |yes: bool| f64::from(u8::from(yes));
         let (before, after) = (one_if(true_time < remaining.low), one_if(true_time > remaining.high));
         let found = [1.0, (remaining.mean - true_time).abs(), before, after];
-        answers.when.iter_mut().zip(found).for_each(|(to, from)| *to += from);
+        results.when.iter_mut().zip(found).for_each(|(to, from)| *to += from);
     }
     let absent = (number.wrapping_mul(2_654_435_761) >> 7).is_multiple_of(2) && track.targets.len() > 1;
     let mut shown = track.clone();
     if absent {
         shown.targets.remove(track.target);
     }
-    for (answer, prior) in answers.none.iter_mut().zip(PRIORS) {
-        let mut scenario: Scenario = shown.scenario(&template.scenario, &template.extra).map_err(told)?;
+    for (result, prior) in results.none.iter_mut().zip(PRIORS) {
+        let mut scenario: Scenario = shown.scenario(&template.scenario, &template.extra).map_err(message)?;
         scenario.none = prior;
         let mut predictor = Predictor::new(&scenario);
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {
-            sample.observe(&mut predictor).map_err(told)?;
+            sample.observe(&mut predictor).map_err(message)?;
             let none = predictor.none();
-            let bin = &mut answer.bins[((none * BINS as f64) as usize).min(BINS - 1)];
+            let bin = &mut result.bins[((none * BINS as f64) as usize).min(BINS - 1)];
             bin.count += weight;
             bin.predicted += weight * none;
             bin.happened += if absent { weight } else { 0.0 };
             if sample.time - samples[0].time <= 0.9 * (end - samples[0].time) + 1e-9 {
-                answer.late = Some((none, absent));
+                result.late = Some((none, absent));
             }
         }
     }
-    Ok(answers)
+    Ok(results)
 }
 
 impl Sums {
-    /// Adds one track's answers.
-    pub fn add(&mut self, answers: &Answers) {
-        self.when.iter_mut().zip(answers.when).for_each(|(to, from)| *to += from);
-        let [samples, error, ..] = answers.when;
+    /// Adds one track's results.
+    pub fn add(&mut self, results: &Extras) {
+        self.when.iter_mut().zip(results.when).for_each(|(to, from)| *to += from);
+        let [samples, error, ..] = results.when;
         if samples > 0.0 {
             self.movements[0] += 1.0;
             self.movements[1] += error / samples;
         }
-        for (k, answer) in answers.none.iter().enumerate() {
-            for (to, from) in self.bins[k].iter_mut().zip(answer.bins) {
+        for (k, result) in results.none.iter().enumerate() {
+            for (to, from) in self.bins[k].iter_mut().zip(result.bins) {
                 to.count += from.count;
                 to.predicted += from.predicted;
                 to.happened += from.happened;
             }
-            self.late[k].extend(answer.late);
+            self.late[k].extend(result.late);
         }
     }
 
@@ -112,13 +112,13 @@ impl Sums {
 }
 
 /// The probability that a track without its target gets a larger "none" than one with it.
-fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
-    let mut sorted = answers.to_vec();
+fn area_under_curve(results: &[(f64, bool)]) -> f64 {
+    let mut sorted = results.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut present, mut pairs, mut absent, mut k) = (0.0, 0.0, 0.0, 0);
     while k < sorted.len() {
-        let same = sorted[k..].iter().take_while(|answer| answer.0 == sorted[k].0).count();
-        let here = sorted[k..k + same].iter().filter(|answer| answer.1).count() as f64;
+        let same = sorted[k..].iter().take_while(|result| result.0 == sorted[k].0).count();
+        let here = sorted[k..k + same].iter().filter(|result| result.1).count() as f64;
         let others = same as f64 - here;
         pairs += here * (present + 0.5 * others);
         present += others;
@@ -128,7 +128,7 @@ fn area_under_curve(answers: &[(f64, bool)]) -> f64 {
     pairs / (present * absent).max(1.0)
 }
 
-/// Prints a table, and gives the same as JSON.
+/// Prints a table, and returns the same as JSON.
 pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
     let when =
         ["time to the entry: error over samples, s", "over movements, s", "within the 80%", "before it", "after it"];
@@ -161,14 +161,14 @@ pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use super::{Answers, Sums, area_under_curve};
+    use super::{Extras, Sums, area_under_curve};
 
     #[test]
     fn what_is_not_before_or_after_the_interval_is_within_it() {
         let mut sums = Sums::default();
         // ten samples that are off by 3 s together, two of them before the interval and three after it; and none
         for when in [[4.0, 1.0, 2.0, 0.0], [6.0, 2.0, 0.0, 3.0], [0.0; 4]] {
-            sums.add(&Answers { when, ..Answers::default() });
+            sums.add(&Extras { when, ..Extras::default() });
         }
         let row = sums.row();
         let expected = [0.3, (0.25 + 1.0 / 3.0) / 2.0, 0.5, 0.2, 0.3];

@@ -26,7 +26,7 @@ const LEARNING: [(&str, &[(&str, f64)]); 3] = [
     ("counts after the last choice", &[("strength", 10.0), ("forgetting", 0.01), ("afterLast", 10.0)]),
 ];
 
-/// Simulates, prints a table and gives it as JSON.
+/// Simulates, prints a table and returns it as JSON.
 pub fn run(template: &Template) -> Result<Json, String> {
     let header = ["the next target follows from the last", "learnt from", "time %", "log loss", "calibration error"];
     let mut table = table(header, 2);
@@ -57,7 +57,7 @@ fn icons() -> Vec<Target> {
 
 /// One user's movements, scored with each kind of learning.
 fn of_user(template: &Template, habit: usize, user: u64) -> Result<Vec<Score>, String> {
-    let told = |error: whither::Error| error.to_string();
+    let message = |error: whither::Error| error.to_string();
     let targets = icons();
     let mut random = Random::new(100 * habit as u64 + user);
     // after each target one of the others, another one for each user
@@ -79,16 +79,16 @@ fn of_user(template: &Template, habit: usize, user: u64) -> Result<Vec<Score>, S
         for (k, track) in tracks.iter().enumerate() {
             if let Some(approach) = track.approach().filter(|_| k >= BEFORE) {
                 predictor.reset();
-                sum.add(&Score::of_predictor(track, approach, &mut predictor).map_err(told)?);
+                sum.add(&Score::of_predictor(track, approach, &mut predictor).map_err(message)?);
             }
-            predictor.chosen(&track.target.to_string()).map_err(told)?;
+            predictor.chosen(&track.target.to_string()).map_err(message)?;
         }
         scores.push(sum);
     }
     Ok(scores)
 }
 
-/// Any whole number below `count` but one.
+/// Any index below `count` but one.
 fn other(random: &mut Random, count: usize, but: usize) -> usize {
     let any = (random.uniform() * (count - 1) as f64) as usize;
     any + usize::from(any >= but)

@@ -24,7 +24,7 @@ struct Task<'a> {
 /// Scores with the old constants and with the new ones, by user.
 type Gain = BTreeMap<String, [Score; 2]>;
 
-/// Learns for each set of a file and prints what was gained; gives how many broken lines were skipped.
+/// Learns for each set of a file and prints what was gained; returns how many broken lines were skipped.
 pub fn run(template: &Template, file: &Path, into: &mut Vec<Json>) -> Result<usize, String> {
     let mut sets: BTreeMap<String, Vec<Track>> = BTreeMap::new();
     let name = reading::name(file);
@@ -86,7 +86,7 @@ fn own(tracks: &[Track]) -> Vec<Task<'_>> {
 fn learn(template: &Template, set: &str, constants: &[String], tasks: &[Task<'_>]) -> Result<Gain, String> {
     let bar = progress(1000 * tasks.len() as u64, format!("{set}: learning"));
     let options = Options { constants: constants.to_vec(), ..Options::default() };
-    let told = |error: whither::Error| error.to_string();
+    let message = |error: whither::Error| error.to_string();
     let gains = tasks.par_iter().map(|task| {
         let tracks: Vec<Track> = task.learnt_from.iter().map(|track| (*track).clone()).collect();
         let mut done = 0;
@@ -96,15 +96,15 @@ fn learn(template: &Template, set: &str, constants: &[String], tasks: &[Task<'_>
             done = done.max(now);
             true
         };
-        let fitted = fit(&tracks, &template.scenario, &template.extra, &options, &mut progress).map_err(told)?;
+        let fitted = fit(&tracks, &template.scenario, &template.extra, &options, &mut progress).map_err(message)?;
         bar.inc(1000u64.saturating_sub(done));
         let mut gain = Gain::new();
         for track in &task.scored_on {
             let Some(approach) = track.approach() else { continue };
             let sums = gain.entry(track.user.clone()).or_default();
             for (sum, scenario) in sums.iter_mut().zip([&template.scenario, &fitted.scenario]) {
-                let scenario = track.scenario(scenario, &template.extra).map_err(told)?;
-                sum.add(&Score::of_scenario(track, approach, &scenario).map_err(told)?);
+                let scenario = track.scenario(scenario, &template.extra).map_err(message)?;
+                sum.add(&Score::of_scenario(track, approach, &scenario).map_err(message)?);
             }
         }
         Ok(gain)
@@ -119,7 +119,7 @@ fn learn(template: &Template, set: &str, constants: &[String], tasks: &[Task<'_>
     Ok(all)
 }
 
-/// What the table tells of one search.
+/// What the table shows of one search.
 struct Row {
     users: usize,
     gaining: usize,

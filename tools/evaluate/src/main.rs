@@ -2,7 +2,7 @@
 //!
 //! A file has one track a line, `{"id", "user", "targets": [[x, y, w, h], ...], "target": k, "samples": [[t, x, y], ...]}`
 //! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`; null for a coordinate that is missing.
-//! What is told, on the approach up to the last entry into the true target: the share of the time with the true target on
+//! What is printed, on the approach up to the last entry into the true target: the share of the time with the true target on
 //! top, accuracy on the way, mean log loss, expected calibration error, lead time; with an interval by drawing users.
 
 mod chart;
@@ -18,7 +18,7 @@ mod sweep;
 mod variants;
 
 use clap::Parser;
-use extras::{Answers, Sums};
+use extras::{Extras, Sums};
 use foresight::Foresight;
 use methods::{Method, Template};
 use peers::Peer;
@@ -30,10 +30,10 @@ use std::process::ExitCode;
 use variants::Variant;
 use whither::study::metrics::Score;
 
-/// What only the usual tables know.
+/// Options of the usual tables only.
 const OF_SCORES: [&str; 7] = ["scenario", "more", "ours", "users", "margin", "every", "charts"];
 
-/// What there is to say where nothing was scored.
+/// The error where nothing was scored.
 const NOTHING: &str = "nothing to score: too few tracks enter their target";
 
 /// Scores predictors on recorded movements.
@@ -49,7 +49,7 @@ struct Arguments {
     /// tools/evaluate/scenarios has one of the same name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
-    /// Ask the first of our scenarios two more things: the time to the entry, and "none of them" with the target taken out of
+    /// Score the first of our scenarios on two more things: the time to the entry, and "none of them" with the target taken out of
     /// half of the tracks.
     #[arg(long)]
     more: bool,
@@ -59,7 +59,7 @@ struct Arguments {
     /// A table by user, too.
     #[arg(long)]
     users: bool,
-    /// Added to the size of every target, for a cursor that has a size itself; else as the scenario of the file says.
+    /// Added to the size of every target, for a cursor that has a size itself; by default the margin of the file's scenario.
     #[arg(long)]
     margin: Option<f64>,
     /// Only every n-th sample.
@@ -71,7 +71,7 @@ struct Arguments {
     /// Instead, learn constants from half of the users, and from each user's own first movements, and score the rest.
     #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "habits")]
     fit: bool,
-    /// Instead, simulate users with habits, and tell what learning their habits gains.
+    /// Instead, simulate users with habits, and print the gain from learning their habits.
     #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "files")]
     habits: bool,
     /// Where to write the report as JSON.
@@ -119,14 +119,14 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     results.print(arguments.users);
     let extras = more.map(|sums| extras::report(&sums));
-    told_skipped(skipped);
+    print_skipped(skipped);
     results.write(&arguments.json, extras)?;
     let charts = chart::write_all(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
 }
 
-/// Another table for each file, and what it says under `key` of the report.
+/// Another table for each file, and the same under `key` of the report.
 fn in_place_of_scores(
     arguments: &Arguments,
     key: &str,
@@ -137,7 +137,7 @@ fn in_place_of_scores(
     for file in &arguments.files {
         skipped += run(file, &mut all)?;
     }
-    told_skipped(skipped);
+    print_skipped(skipped);
     if all.is_empty() {
         return Err(NOTHING.to_owned());
     }
@@ -146,7 +146,7 @@ fn in_place_of_scores(
     Ok(())
 }
 
-fn told_skipped(lines: usize) {
+fn print_skipped(lines: usize) {
     if lines > 0 {
         println!("{lines} broken lines skipped, see above");
     }
@@ -157,7 +157,7 @@ fn template_for(file: &Path) -> Result<Template, String> {
     Template::of(file)?.map_or_else(Template::pointer, Ok)
 }
 
-/// The methods for one file: its own scenario where there is one, else the pointer's; then those asked for; then peers.
+/// The methods for one file: its own scenario where there is one, else the pointer's; then those of `--scenario`; then peers.
 fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String> {
     let mut methods = match Template::of(file)? {
         Some(own) => vec![Method::ours(own)],
@@ -187,14 +187,14 @@ fn evaluate(
     let mut sets: Vec<Set> = Vec::new();
     let template = template_for(file)?;
     let margin = arguments.margin.unwrap_or(template.margin);
-    let asked = more.is_some().then_some(&template);
+    let extra = more.is_some().then_some(&template);
     let skipped = reading::each(
         file,
-        |line| score(line, (margin, arguments.every), methods, asked),
-        |(part, user, scores, answers)| {
+        |line| score(line, (margin, arguments.every), methods, extra),
+        |(part, user, scores, extras)| {
             report::add(&mut sets, &name, part, methods, &user, &scores);
-            if let (Some(sums), Some(answers)) = (more.as_deref_mut(), answers) {
-                sums.entry(format!("{name}{part}")).or_default().add(&answers);
+            if let (Some(sums), Some(extras)) = (more.as_deref_mut(), extras) {
+                sums.entry(format!("{name}{part}")).or_default().add(&extras);
             }
         },
     )?;
@@ -202,19 +202,19 @@ fn evaluate(
     Ok(skipped)
 }
 
-type Scored = (&'static str, String, Vec<Option<Score>>, Option<Answers>);
+type Scored = (&'static str, String, Vec<Option<Score>>, Option<Extras>);
 
 fn score(
     line: &reading::Line,
     (margin, every): (f64, usize),
     methods: &[Method],
-    asked: Option<&Template>,
+    extra: Option<&Template>,
 ) -> Result<Option<Scored>, String> {
     let track = line.track(margin)?;
     let Some((track, approach)) = Variant::Every(every).of(&track, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    let answers = asked.map(|template| extras::ask(template, &track, approach, line.number)).transpose()?;
-    Ok(Some((reading::part(&track), track.user, scores, answers)))
+    let extras = extra.map(|template| extras::run(template, &track, approach, line.number)).transpose()?;
+    Ok(Some((reading::part(&track), track.user, scores, extras)))
 }
 
 #[cfg(test)]
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn the_command_line_is_sound_and_says_what_does_not_go_together() {
+    fn the_command_line_is_sound_and_refuses_what_cannot_be_combined() {
         Arguments::command().debug_assert();
         let refused = |line: &str| Arguments::try_parse_from(line.split(' ')).is_err();
         assert!(

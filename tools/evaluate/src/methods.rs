@@ -23,7 +23,7 @@ enum Rule {
     Foresight(Foresight),
 }
 
-/// What a scenario file says.
+/// A scenario file.
 #[derive(Debug)]
 pub struct Template {
     name: String,
@@ -65,7 +65,7 @@ impl Template {
         })
     }
 
-    /// What `pointerScenario` gives.
+    /// The scenario of `pointerScenario`.
     pub fn pointer() -> Result<Self, String> {
         let any = PointerTarget { id: "any".to_owned(), x: 0.0, y: 0.0, width: 1.0, height: 1.0 };
         let scenario = pointer_scenario(&[any], PointerOptions::default()).map_err(|error| error.to_string())?;
@@ -104,7 +104,7 @@ impl Method {
         matches!(self.rule, Rule::Peer(Peer::Extrapolation { .. }))
     }
 
-    /// Scores one track; none where the method does not speak of such tracks.
+    /// Scores one track; none where the method does not apply to such tracks.
     pub fn score(&self, track: &Track, approach: usize) -> Result<Option<Score>, String> {
         let tops = match &self.rule {
             Rule::Ours { scenario, extra } => {

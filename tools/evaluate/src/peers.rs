@@ -1,4 +1,4 @@
-//! Other predictors, on the same samples. Each names the target it would bet on; none of them gives probabilities that
+//! Other predictors, on the same samples. Each names its most likely target; none of them has probabilities that
 //! sum to one.
 
 use whither::study::track::{Target, Track, distance};
@@ -51,7 +51,7 @@ impl Peer {
         }
     }
 
-    /// Whether its rule speaks of tracks like this one.
+    /// Whether its rule applies to tracks like this one.
     pub fn applies(self, track: &Track) -> bool {
         match self {
             Self::Intently | Self::Premonish => track.dimensions() == 2,
@@ -63,7 +63,7 @@ impl Peer {
         }
     }
 
-    /// The target it bets on after each of the first `length` samples.
+    /// Its most likely target after each of the first `length` samples.
     pub fn tops(self, track: &Track, length: usize) -> Vec<Option<usize>> {
         match self {
             Self::Intently => intently(track, length),

@@ -47,35 +47,35 @@ struct Fault {
 }
 
 impl Faults {
-    /// How many kinds are told; a file that is none of tracks has as many as lines.
-    const TOLD: usize = 20;
+    /// How many kinds are reported; a file that is not one of tracks has as many as lines.
+    const REPORTED: usize = 20;
 
-    /// Counts a line, which is told as `first` where its `message` is the first of its kind: numbers and what is in quotation marks
+    /// Counts a line, which is reported as `first` where its `message` is the first of its kind: numbers and what is in quotation marks
     /// or brackets differ within a kind.
     fn add(&mut self, message: &str, first: impl FnOnce() -> String) {
         self.lines += 1;
         let kind = kind(message);
         if let Some(fault) = self.kinds.iter_mut().find(|fault| fault.kind == kind) {
             fault.lines += 1;
-        } else if self.kinds.len() < Self::TOLD {
+        } else if self.kinds.len() < Self::REPORTED {
             self.kinds.push(Fault { kind, first: first(), lines: 1 });
         }
     }
 
-    /// What is told, in the order of the file.
-    fn told(&self) -> Vec<String> {
+    /// The reported lines, in the order of the file.
+    fn report(&self) -> Vec<String> {
         let more = |lines: usize, what: &str| match lines {
             0 => String::new(),
             1 => format!("; 1 more line {what}"),
             n => format!("; {n} more lines {what}"),
         };
-        let mut told: Vec<_> =
+        let mut report: Vec<_> =
             self.kinds.iter().map(|f| format!("{}; skipped{}", f.first, more(f.lines - 1, "like it"))).collect();
         let others = self.lines - self.kinds.iter().map(|fault| fault.lines).sum::<usize>();
-        if let Some(last) = told.last_mut() {
+        if let Some(last) = report.last_mut() {
             last.push_str(&more(others, "of other kinds"));
         }
-        told
+        report
     }
 }
 
@@ -93,8 +93,8 @@ fn kind(message: &str) -> String {
     kind
 }
 
-/// Does `work` for every line in parallel, with a progress bar, and gives what comes of it to `take`, in the order of the file.
-/// A line for which `work` fails is skipped, and told once for all of its kind; gives how many there were.
+/// Does `work` for every line in parallel, with a progress bar, and passes the result to `take`, in the order of the file.
+/// A line for which `work` fails is skipped, and reported once for all of its kind; returns how many there were.
 pub fn each<T: Send>(
     path: &Path,
     work: impl Fn(&Line) -> Result<Option<T>, String> + Sync,
@@ -116,7 +116,7 @@ pub fn each<T: Send>(
         Ok(())
     })?;
     bar.finish_and_clear();
-    faults.told().iter().for_each(|line| eprintln!("{line}"));
+    faults.report().iter().for_each(|line| eprintln!("{line}"));
     Ok(faults.lines)
 }
 
@@ -148,7 +148,7 @@ fn in_batches(path: &Path, mut take: impl FnMut(&[Line], u64) -> Result<(), Stri
     }
 }
 
-/// The set that a track belongs to within its file: ids that end in `-in` or `-out` are told apart.
+/// The set that a track belongs to within its file: ids that end in `-in` or `-out` are kept apart.
 pub fn part(track: &Track) -> &'static str {
     match track.id.rsplit('-').next() {
         Some("in") => " in",
@@ -171,8 +171,8 @@ mod tests {
 
     const GOOD: &str = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 9, 9], [1, 0, 0]]}"#;
 
-    /// What is told of one line among good ones; the lines before and after it are read.
-    fn told(what: &str, line: &str) -> String {
+    /// What is reported for one line among good ones; the lines before and after it are read.
+    fn fault(what: &str, line: &str) -> String {
         let path = file(what, &[GOOD, "", line, GOOD]);
         let mut found = Vec::new();
         let mut good = 0;
@@ -193,71 +193,74 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_field_is_told_with_its_file_and_line() {
+    fn a_wrong_field_is_reported_with_its_file_and_line() {
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "sample": [[0, 9, 9]]}"#;
         let expected = "tracks.jsonl:3: sample: unknown key \"sample\", expected one of \"id\", \"user\", \"targets\", \"target\", \"samples\"";
-        assert_eq!(told("field", line), expected);
+        assert_eq!(fault("field", line), expected);
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 9, "9"]]}"#;
-        assert_eq!(told("type", line), "tracks.jsonl:3: samples[0][2]: must be a number, got \"9\"");
+        assert_eq!(fault("type", line), "tracks.jsonl:3: samples[0][2]: must be a number, got \"9\"");
     }
 
     #[test]
-    fn a_target_that_is_not_there_is_told_with_its_file_and_line() {
+    fn a_missing_target_is_reported_with_its_file_and_line() {
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 1, "samples": [[0, 9, 9]]}"#;
         let expected = "tracks.jsonl:3: target: must be the place of one of the 1 targets, counted from 0, got 1";
-        assert_eq!(told("index", line), expected);
-        assert_eq!(told("negative", &line.replace("1,", "-1,")), expected.replace("got 1", "got -1"));
+        assert_eq!(fault("index", line), expected);
+        assert_eq!(fault("negative", &line.replace("1,", "-1,")), expected.replace("got 1", "got -1"));
     }
 
     #[test]
-    fn time_that_runs_back_is_told_with_its_file_and_line() {
+    fn time_that_runs_back_is_reported_with_its_file_and_line() {
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": [[0, 9, 9], [2, 8, 8], [1, 0, 0]]}"#;
-        assert_eq!(told("time", line), "tracks.jsonl:3: samples[2]: must not be before the sample at 2, got [1, 0, 0]");
+        assert_eq!(
+            fault("time", line),
+            "tracks.jsonl:3: samples[2]: must not be before the sample at 2, got [1, 0, 0]"
+        );
     }
 
     #[test]
-    fn an_empty_list_is_told_with_its_file_and_line() {
+    fn an_empty_list_is_reported_with_its_file_and_line() {
         let line = r#"{"targets": [], "target": 0, "samples": [[0, 9, 9]]}"#;
-        assert_eq!(told("targets", line), "tracks.jsonl:3: targets: must have at least one target, got []");
+        assert_eq!(fault("targets", line), "tracks.jsonl:3: targets: must have at least one target, got []");
         let line = r#"{"targets": [[0, 0, 2, 2]], "target": 0, "samples": []}"#;
-        assert_eq!(told("samples", line), "tracks.jsonl:3: samples: must have at least one sample, got []");
+        assert_eq!(fault("samples", line), "tracks.jsonl:3: samples: must have at least one sample, got []");
     }
 
-    /// What is told of messages, one a line.
-    fn all_told(messages: &[&str]) -> Vec<String> {
+    /// What is reported for messages, one a line.
+    fn all_reported(messages: &[&str]) -> Vec<String> {
         let mut faults = Faults::default();
         for (i, message) in messages.iter().enumerate() {
             faults.add(message, || format!("{}: {message}", i + 1));
         }
         assert_eq!(faults.lines, messages.len());
-        faults.told()
+        faults.report()
     }
 
     #[test]
-    fn one_fault_in_every_line_is_told_once_with_its_count() {
+    fn one_fault_in_every_line_is_reported_once_with_its_count() {
         let many: Vec<String> = (0..240)
             .map(|k| format!("samples[{k}][{}]: must be a number, got \"{}\"", k % 3, "x".repeat(k % 7)))
             .collect();
-        let told = all_told(&many.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(told, ["1: samples[0][0]: must be a number, got \"\"; skipped; 239 more lines like it"]);
+        let reported = all_reported(&many.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(reported, ["1: samples[0][0]: must be a number, got \"\"; skipped; 239 more lines like it"]);
     }
 
     #[test]
-    fn faults_of_different_kinds_are_told_each() {
+    fn faults_of_different_kinds_are_reported_each() {
         let [one, two, three] =
             ["user: must be a string, got true", "target: must be a number, got [0, 1]", "EOF at line 1 column 40"];
-        let told = all_told(&[one, two, one, three, "EOF at line 1 column 7", one]);
+        let reported = all_reported(&[one, two, one, three, "EOF at line 1 column 7", one]);
         let expected = [
             format!("1: {one}; skipped; 2 more lines like it"),
             format!("2: {two}; skipped"),
             format!("4: {three}; skipped; 1 more line like it"),
         ];
-        assert_eq!(told, expected);
+        assert_eq!(reported, expected);
         // a file of anything
         let any: Vec<String> = (0..100).map(|k| format!("key{}: unknown", "a".repeat(k))).collect();
-        let told = all_told(&any.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(told.len(), Faults::TOLD);
-        assert!(told[Faults::TOLD - 1].ends_with("; skipped; 80 more lines of other kinds"), "{told:?}");
+        let reported = all_reported(&any.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(reported.len(), Faults::REPORTED);
+        assert!(reported[Faults::REPORTED - 1].ends_with("; skipped; 80 more lines of other kinds"), "{reported:?}");
     }
 
     #[test]
@@ -273,12 +276,12 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_is_no_json_is_told_with_its_file_and_line() {
-        assert!(told("cut", &GOOD[..40]).starts_with("tracks.jsonl:3: EOF while parsing"));
+    fn a_line_that_is_no_json_is_reported_with_its_file_and_line() {
+        assert!(fault("cut", &GOOD[..40]).starts_with("tracks.jsonl:3: EOF while parsing"));
     }
 
     #[test]
-    fn what_comes_of_the_lines_keeps_their_order_over_batches() {
+    fn the_results_keep_the_order_of_the_lines_over_batches() {
         let path = file("order", &vec![GOOD; 3 * BATCH + 7]);
         let mut numbers = Vec::new();
         assert_eq!(each(&path, |line| Ok(Some(line.number)), |number| numbers.push(number)), Ok(0));

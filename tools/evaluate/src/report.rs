@@ -107,7 +107,7 @@ fn figures_json(score: &Score) -> Json {
 }
 
 impl Set {
-    /// The rows to show: of a grid the best one alone, under a name that says so.
+    /// The rows to show: of a grid the best one alone, under a name that shows it.
     pub fn shown(&self) -> Vec<(String, &Row)> {
         let best = self
             .rows

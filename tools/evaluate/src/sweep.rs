@@ -22,7 +22,7 @@ struct Row {
 /// The rows of each set.
 type Sets = BTreeMap<String, Vec<Row>>;
 
-/// Runs all variants of a file's tracks; gives how many broken lines were skipped.
+/// Runs all variants of a file's tracks; returns how many broken lines were skipped.
 pub fn run(template: &Value, file: &Path, into: &mut Vec<Json>) -> Result<usize, String> {
     let mut sets = Sets::new();
     let name = reading::name(file);
@@ -61,8 +61,8 @@ fn score(template: &Value, line: &Line) -> Result<Option<Scored>, String> {
 
 impl Row {
     fn of(template: &Value, track: &Track, approach: usize) -> Result<Self, String> {
-        let told = |error: whither::Error| error.to_string();
-        let scenario = track.scenario(template, &Value::Null).map_err(told)?;
+        let message = |error: whither::Error| error.to_string();
+        let scenario = track.scenario(template, &Value::Null).map_err(message)?;
         let of_peer = |peer: Peer| {
             let tops = peer.tops(track, approach).into_iter();
             Score::of(track, &tops.map(|top| Prediction { top, chances: None }).collect::<Vec<_>>())
@@ -70,7 +70,7 @@ impl Row {
         let grid =
             Peer::all().into_iter().filter(|peer| matches!(peer, Peer::Extrapolation { .. }) && peer.applies(track));
         Ok(Self {
-            ours: Score::of_scenario(track, approach, &scenario).map_err(told)?,
+            ours: Score::of_scenario(track, approach, &scenario).map_err(message)?,
             nearest: of_peer(Peer::Nearest),
             grid: grid.map(of_peer).collect(),
         })

@@ -22,7 +22,7 @@ pub enum Variant {
     Mixed,
     /// Every n-th sample, and the entry.
     Every(usize),
-    /// So many samples a second: a Catmull-Rom spline through the recorded ones, on whole units of length.
+    /// So many samples a second: a Catmull-Rom spline through the recorded ones, rounded to units of length.
     Rate(f64),
     /// All lengths times this.
     Scale(f64),
@@ -95,7 +95,7 @@ impl Variant {
     }
 }
 
-/// Any whole number below `count`.
+/// Any index below `count`.
 fn below(random: &mut Random, count: usize) -> usize {
     (random.uniform() * count as f64) as usize
 }

@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Colours that people with any colour vision can tell apart (Okabe and Ito).
+/// Colours that people with any colour vision can distinguish (Okabe and Ito).
 pub const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -130,12 +130,12 @@ fn draw(panel: &Panel, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
             let stroke = series.stroke;
             let style = ShapeStyle { color: series.colour.mix(1.0), filled: true, stroke_width: 2 };
             annotation.label(series.label.clone()).legend(move |(x, y)| {
-                let ends: Vec<(i32, i32)> = match stroke {
+                let points: Vec<(i32, i32)> = match stroke {
                     Stroke::Solid => vec![(x, y), (x + 20, y)],
                     Stroke::Dashed => vec![(x, y), (x + 8, y)],
                     Stroke::Dots => vec![(x + 8, y), (x + 12, y)],
                 };
-                PathElement::new(ends, style)
+                PathElement::new(points, style)
             });
         }
     }

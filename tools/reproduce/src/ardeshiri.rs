@@ -2,7 +2,7 @@
 
 use crate::Effort;
 use crate::gestures::{self, Gesture, gesture, predictor_of};
-use crate::movement::{Movement, beliefs, mean, percent, share_on_top, top};
+use crate::movement::{Movement, mean, percent, posteriors, share_on_top, top};
 use crate::random::Normals;
 use crate::report::{Chapter, Exhibit, Table};
 use nalgebra::Vector3;
@@ -34,7 +34,7 @@ pub fn chapter(effort: Effort, progress: &ProgressBar) -> Chapter {
 }
 
 fn both(targets: &[[f64; 4]], movement: &Movement) -> [Vec<Vec<f64>>; 2] {
-    METHODS.map(|method| beliefs(&predictor_of(targets, method, SIGMA), movement))
+    METHODS.map(|method| posteriors(&predictor_of(targets, method, SIGMA), movement))
 }
 
 /// The share of the observations at which both methods have the same destination on top, of all and of those where the exact
@@ -51,8 +51,8 @@ pub fn compare(gestures: &[Gesture], progress: &ProgressBar) -> ([f64; 2], [Vec<
                 same[place] += f64::from(u8::from(top(exact) == top(approximate)));
             }
         }
-        for (shares, beliefs) in shares.iter_mut().zip(&both) {
-            shares.push(share_on_top(beliefs, movement));
+        for (shares, posteriors) in shares.iter_mut().zip(&both) {
+            shares.push(share_on_top(posteriors, movement));
         }
         progress.inc(1);
     }
@@ -63,13 +63,21 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
     let gestures = gestures::simulated(gestures(effort), 50);
     let (agreements, shares) = compare(&gestures, progress);
     let selected = &gestures[0];
-    let beliefs = both(&selected.targets, &selected.movement);
-    let largest =
-        beliefs[0].iter().flatten().zip(beliefs[1].iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let panel = |title: &str, beliefs: &[Vec<f64>]| {
+    let posteriors = both(&selected.targets, &selected.movement);
+    let largest = posteriors[0]
+        .iter()
+        .flatten()
+        .zip(posteriors[1].iter().flatten())
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    let panel = |title: &str, posteriors: &[Vec<f64>]| {
         let line = |i: usize| {
-            let points =
-                selected.movement.observations.iter().zip(beliefs).map(move |((time, _), belief)| (*time, belief[i]));
+            let points = selected
+                .movement
+                .observations
+                .iter()
+                .zip(posteriors)
+                .map(move |((time, _), posterior)| (*time, posterior[i]));
             if i == selected.movement.truth {
                 let mut truth = Series::new("the true destination", COLOURS[1], points);
                 truth.width = 3.0;
@@ -87,7 +95,7 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
             series: (0..selected.targets.len()).map(line).collect(),
         }
     };
-    let panels = [panel("exact, (12)", &beliefs[0]), panel("denominator constant, Table 1", &beliefs[1])];
+    let panels = [panel("exact, (12)", &posteriors[0]), panel("denominator constant, Table 1", &posteriors[1])];
     let mut exhibit = Exhibit {
         title: "Figure 1: posteriors of 21 destinations over one gesture".into(),
         figures: vec![chart(&panels, 1, (760, 300))],
@@ -120,7 +128,7 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
     exhibit
 }
 
-/// Two targets one behind the other as seen from the start: there the denominator is not constant.
+/// Two targets one behind the other from the start: there the denominator is not constant.
 fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
     let targets = [[0.0, 0.0, 0.0, 0.024], [0.0, 0.0, -0.2, 0.024]];
     let start = Vector3::new(0.0, 0.0, 0.2);
@@ -140,17 +148,17 @@ fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
         for i in 0..gestures(effort) / 2 {
             let movement = gesture(start, &targets, truth, &mut random);
             let both = both(&targets, &movement);
-            for (place, beliefs) in both.iter().enumerate() {
-                shares[place].push(share_on_top(beliefs, &movement));
-                probabilities[place].extend(beliefs.iter().map(|belief| belief[truth]));
+            for (place, posteriors) in both.iter().enumerate() {
+                shares[place].push(share_on_top(posteriors, &movement));
+                probabilities[place].extend(posteriors.iter().map(|posterior| posterior[truth]));
             }
             if i == 0 {
                 let last = movement.observations.last().map_or(1.0, |(time, _)| *time);
-                let line = |beliefs: &[Vec<f64>]| {
+                let line = |posteriors: &[Vec<f64>]| {
                     movement
                         .observations
                         .iter()
-                        .zip(beliefs)
+                        .zip(posteriors)
                         .map(|((time, _), b)| (*time, b[truth]))
                         .collect::<Vec<_>>()
                 };
@@ -176,7 +184,7 @@ fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
         title: "Where dropping the denominator changes the answer: two targets in line".into(),
         figures: vec![chart(&panels, 2, (420, 300))],
         caption: "Targets 0.2 m and 0.4 m from the start in the same direction. f(x_T given x_1) is larger for the near one, and by (12) each is \
-                  measured against what the start alone says of it; without that the near one is believed before anything has moved."
+                  measured against its density given the start alone; without that the near one is the most probable before anything has moved."
             .into(),
         paper: "The denominator is approximately constant when the time to go is long (Q_T1 much larger than Q_Tt and Sigma_D), so the paper \
                 replaces it by a constant factor."

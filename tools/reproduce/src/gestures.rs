@@ -76,8 +76,8 @@ pub fn gesture(start: Vector3<f64>, targets: &[[f64; 4]], truth: usize, random: 
             + (end - first_end) * minimum_jerk((t / duration - 0.55) / 0.45)
             + bow * (PI * (t / duration).min(1.0)).sin();
         let hand = Vector3::from_fn(|i, _| 0.0007 * (TAU * tremor[i].0 * t + tremor[i].1).sin());
-        let seen = path + hand + shake.component_mul(&vibration.next(random)) + vector(random, 0.002);
-        (t, seen.as_slice().to_vec())
+        let measured = path + hand + shake.component_mul(&vibration.next(random)) + vector(random, 0.002);
+        (t, measured.as_slice().to_vec())
     });
     Movement { observations: observed.collect(), truth }
 }

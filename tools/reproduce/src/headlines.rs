@@ -1,12 +1,12 @@
-//! The headline figures, held where the papers have them. In a file of their own: what computes them was once put back to an older
-//! state, and what it printed with it.
+//! The headline figures, held where the papers have them, in a file apart from the code that computes them: a revert of the code
+//! does not revert these.
 
 use crate::liang::{pointing, vessels};
 use crate::movement::mean;
 use crate::{Effort, ardeshiri, gestures, rezaie_li};
 use presentation::ProgressBar;
 
-/// The paper: "very similar". Where the velocity at the start is unknown they are not: the two ends are then not independent.
+/// The paper: "very similar". Where the velocity at the start is unknown they are not: origin and destination are then not independent.
 #[test]
 fn liangs_figure_1_shows_two_families_that_are_very_similar() {
     let shown = vessels::drawn(vessels::HARBOURS.len());

@@ -1,5 +1,5 @@
 //! Remakes the experiments of the three papers: prints their tables and writes `target/reproduce/index.html`, with each figure
-//! beside what the paper states. `npm run reproduce`, or `npm run reproduce -- --quick`.
+//! next to what the paper states. `npm run reproduce`, or `npm run reproduce -- --quick`.
 #![forbid(unsafe_code)]
 
 mod ardeshiri;
@@ -23,7 +23,7 @@ use std::time::Instant;
 pub enum Effort {
     /// As many as in the papers.
     Full,
-    /// Enough to see that everything works.
+    /// Enough to check that everything works.
     Quick,
 }
 
@@ -53,8 +53,8 @@ fn main() -> ExitCode {
     });
     progress.finish_and_clear();
     let introduction = format!(
-        "Each figure and table of the three papers that can be remade without their private recordings, beside what the paper states. \
-         Seeded: every run gives the same numbers, but for the run times.{}",
+        "Each figure and table of the three papers that can be remade without their private recordings, next to what the paper states. \
+         Seeded: every run has the same numbers, but for the run times.{}",
         if matches!(effort, Effort::Quick) { " This is a quick run with fewer tracks." } else { "" }
     );
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/reproduce/index.html");

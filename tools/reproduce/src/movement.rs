@@ -1,4 +1,4 @@
-//! Movements, and what predictors make of them.
+//! Movements, and the posteriors of predictors.
 
 use whither::{Predictor, Scenario};
 
@@ -26,25 +26,25 @@ pub fn scenario(json: serde_json::Value) -> Scenario {
 }
 
 /// The probabilities of all destinations after each observation.
-pub fn beliefs(scenario: &Scenario, movement: &Movement) -> Vec<Vec<f64>> {
+pub fn posteriors(scenario: &Scenario, movement: &Movement) -> Vec<Vec<f64>> {
     let mut predictor = Predictor::new(scenario);
-    let believe = |(time, position): &(f64, Vec<f64>)| {
+    let posterior = |(time, position): &(f64, Vec<f64>)| {
         predictor.observe(*time, position).expect("times ascend and numbers are finite");
         predictor.probabilities().to_vec()
     };
-    movement.observations.iter().map(believe).collect()
+    movement.observations.iter().map(posterior).collect()
 }
 
 /// The share of the time during which the true destination has the highest probability, each observation weighted by half
 /// the time to its neighbours.
-pub fn share_on_top(beliefs: &[Vec<f64>], movement: &Movement) -> f64 {
-    let right = |k: usize| top(&beliefs[k]) == movement.truth;
-    let (mut on_top, mut whole) = (0.0, 0.0);
+pub fn share_on_top(posteriors: &[Vec<f64>], movement: &Movement) -> f64 {
+    let right = |k: usize| top(&posteriors[k]) == movement.truth;
+    let (mut on_top, mut total) = (0.0, 0.0);
     for (k, weight) in weights(movement).into_iter().enumerate() {
-        whole += weight;
+        total += weight;
         on_top += if right(k) { weight } else { 0.0 };
     }
-    on_top / whole
+    on_top / total
 }
 
 /// Half the time to both neighbours of each observation.
@@ -55,8 +55,8 @@ fn weights(movement: &Movement) -> Vec<f64> {
 }
 
 /// The most probable destination.
-pub fn top(beliefs: &[f64]) -> usize {
-    (0..beliefs.len()).fold(0, |best, i| if beliefs[i] > beliefs[best] { i } else { best })
+pub fn top(probabilities: &[f64]) -> usize {
+    (0..probabilities.len()).fold(0, |best, i| if probabilities[i] > probabilities[best] { i } else { best })
 }
 
 /// A share as a percentage.

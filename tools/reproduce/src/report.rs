@@ -48,7 +48,7 @@ pub struct Exhibit {
     pub comparisons: Vec<[String; 4]>,
     /// More numbers of ours.
     pub tables: Vec<Table>,
-    /// What the paper leaves out and was assumed here.
+    /// What the paper does not state and was assumed here.
     pub assumed: Vec<String>,
 }
 
@@ -73,7 +73,7 @@ impl Exhibit {
     }
 
     fn html(&self) -> String {
-        let mut html = format!("<section><h3>{}</h3><div class=\"beside\"><div class=\"ours\">", escape(&self.title));
+        let mut html = format!("<section><h3>{}</h3><div class=\"columns\"><div class=\"ours\">", escape(&self.title));
         for figure in &self.figures {
             let _ = write!(html, "<figure>{figure}</figure>");
         }
@@ -129,7 +129,7 @@ h2 { font-size: 1.3rem; line-height: 1.35; margin: 4rem 0 1rem; padding-top: 1re
 h3 { font-size: 1.1rem; margin: 2.5rem 0 .75rem; }
 h4 { font-size: .8rem; text-transform: uppercase; letter-spacing: .06em; color: #596173; margin: 1.25rem 0 .35rem; }
 header p { max-width: 60rem; }
-.beside { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 2.5rem; align-items: start; }
+.columns { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 2.5rem; align-items: start; }
 .paper h4:first-child { margin-top: 0; }
 .paper p, .paper ul { margin: 0; }
 .paper ul { padding-left: 1.1rem; }
@@ -139,5 +139,5 @@ svg { display: block; width: 100%; height: auto; }
 table { border-collapse: collapse; font-size: .85rem; margin: .75rem 0; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .8rem .3rem 0; border-bottom: 1px solid #d9dde5; }
 th { font-weight: 600; border-bottom-color: #596173; }
-@media (max-width: 60rem) { .beside { grid-template-columns: minmax(0, 1fr); gap: 1rem; } }
+@media (max-width: 60rem) { .columns { grid-template-columns: minmax(0, 1fr); gap: 1rem; } }
 ";

@@ -10,10 +10,10 @@ pub const STEPS: usize = 100;
 /// Measurements are used up to this step.
 const LAST_MEASURED: usize = 9;
 const PAPERS_RATIO: f64 = 368.13;
-/// Runs are quick beside the other experiments.
+/// Runs are quick compared with the other experiments.
 const RUNS_A_TICK: usize = 50;
 
-/// The airliner with the given joint density of both ends. State order here: positions, then velocities.
+/// The airliner with the given joint density of origin and destination. State order here: positions, then velocities.
 fn airliner(mean: Vec<f64>, covariance: Vec<Vec<f64>>) -> ConditionallyMarkovSequence {
     let configuration: Value = serde_json::from_value(json!({
         "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 0.1 },
@@ -28,13 +28,13 @@ const ORIGIN: [f64; 4] = [2000.0, 5000.0, 70.0, 0.0];
 const DESTINATION: [f64; 4] = [130_000.0, 10_000.0, 70.0, 0.0];
 const VARIANCE: [f64; 4] = [1000.0, 1000.0, 10.0, 10.0];
 
-/// The CM_L sequence: independent ends.
+/// The CM_L sequence: independent endpoints.
 fn directed() -> ConditionallyMarkovSequence {
     let covariance = (0..8).map(|i| (0..8).map(|j| if i == j { VARIANCE[i % 4] } else { 0.0 }).collect()).collect();
     airliner([ORIGIN, DESTINATION].concat(), covariance)
 }
 
-/// The Markov sequence (1) is the CM_L sequence whose ends have the joint density that (1) gives them:
+/// The Markov sequence (1) is the CM_L sequence whose endpoints have the joint density of (1):
 /// `x_N = F x_0 + e` over all steps.
 fn markov() -> ConditionallyMarkovSequence {
     let h = 15.0 * STEPS as f64;
@@ -82,7 +82,7 @@ pub fn chapter(effort: Effort, progress: &ProgressBar) -> Chapter {
 
 fn figure1() -> Exhibit {
     let mut series = Vec::new();
-    let mut ends = [0.0; 2];
+    let mut deviations = [0.0; 2];
     for (place, (label, sequence, stroke)) in
         [("Markov", markov(), Stroke::Dashed), ("CM_L", directed(), Stroke::Solid)].into_iter().enumerate()
     {
@@ -92,7 +92,7 @@ fn figure1() -> Exhibit {
             let middle = mean(drawn.iter().map(|x| x[at]));
             drawn.iter().map(|x| (x[at] - middle).powi(2)).sum()
         };
-        ends[place] = ((spread(400) + spread(401)) / (2.0 * 999.0)).sqrt();
+        deviations[place] = ((spread(400) + spread(401)) / (2.0 * 999.0)).sqrt();
         for trajectory in &drawn[..50] {
             let points = trajectory.chunks(4).map(|x| (x[0] / 1000.0, x[1] / 1000.0));
             let colour = COLOURS[1 - place];
@@ -114,10 +114,10 @@ fn figure1() -> Exhibit {
     exhibit.compare(
         "deviation of a position at the end, CM_L",
         "31.6 m (C_N)",
-        format!("{:.1} m", ends[1]),
-        format!("ratio {:.2}", ends[1] / 1000f64.sqrt()),
+        format!("{:.1} m", deviations[1]),
+        format!("ratio {:.2}", deviations[1] / 1000f64.sqrt()),
     );
-    exhibit.compare("deviation of a position at the end, Markov", "not stated", format!("{:.0} m", ends[0]), "");
+    exhibit.compare("deviation of a position at the end, Markov", "not stated", format!("{:.0} m", deviations[0]), "");
     exhibit
 }
 

@@ -131,10 +131,10 @@ fn flops() -> Exhibit {
         "ours, each its own",
     ]);
     for (method, (name, _)) in METHODS.iter().enumerate() {
-        let whole = |x: f64| format!("{x:.0}");
-        let [alike, own] = our_costs(method).map(whole);
+        let rounded = |x: f64| format!("{x:.0}");
+        let [alike, own] = our_costs(method).map(rounded);
         let [knows, does_not] = match method {
-            0..=2 => [whole(with[method]), whole(without[method])],
+            0..=2 => [rounded(with[method]), rounded(without[method])],
             _ => [String::new(), String::new()],
         };
         table.row([(*name).to_owned(), knows, does_not, alike, own]);

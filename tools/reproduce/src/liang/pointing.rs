@@ -2,7 +2,7 @@
 
 use crate::Effort;
 use crate::gestures::{self, Gesture, predictor_of};
-use crate::movement::{METHODS, beliefs, mean, percent, share_on_top};
+use crate::movement::{METHODS, mean, percent, posteriors, share_on_top};
 use crate::report::{Exhibit, Table};
 use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
 
@@ -65,8 +65,8 @@ pub fn exhibits(effort: Effort, progress: &ProgressBar) -> Vec<Exhibit> {
 
 pub fn success(gestures: &[Gesture], method: &str, noise: f64) -> f64 {
     let share = |gesture: &Gesture| {
-        let beliefs = beliefs(&predictor_of(&gesture.targets, method, noise), &gesture.movement);
-        share_on_top(&beliefs, &gesture.movement)
+        let posteriors = posteriors(&predictor_of(&gesture.targets, method, noise), &gesture.movement);
+        share_on_top(&posteriors, &gesture.movement)
     };
     mean(&gestures.iter().map(share).collect::<Vec<_>>())
 }

@@ -12,7 +12,7 @@ use whither::{Predictor, Scenario};
 /// Algorithm 1, original and Algorithm 2, Algorithm 1 and Algorithm 2.
 pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let motion = scenario.motion.candidates[0].model.as_ref();
-    let (s, ends) = (motion.states(), scenario.destinations.len());
+    let (s, count) = (motion.states(), scenario.destinations.len());
     let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { return Vec::new() };
     let arrival = arrival.grid(quadrature, 0.0, 0.0);
     let first = first_posterior(scenario, movement);
@@ -23,7 +23,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let start_time = movement.observations[0].0;
     let mut state = first.clone();
     let mut bridged: Vec<Vec<Gaussian>> =
-        arrival.times.iter().map(|_| (0..ends).map(|i| stacked(&first, &end(i), &extent)).collect()).collect();
+        arrival.times.iter().map(|_| (0..count).map(|i| stacked(&first, &end(i), &extent)).collect()).collect();
     let mut averages = Vec::new();
     for pair in movement.observations.windows(2) {
         let ((before, _), (time, position)) = (&pair[0], &pair[1]);
@@ -40,7 +40,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
                 continue;
             }
             let rest = motion.transition(rest_time);
-            let whole = motion.transition(rest_time + (time - before));
+            let total = motion.transition(rest_time + (time - before));
             let onward = Bridge::new(&step.transition, &step.noise, &rest.transition, &rest.noise, s)
                 .expect("constant velocity moves every component");
             // (10): the prediction given the pseudo-observation
@@ -48,7 +48,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
                 .expect("positive definite");
             // (12) and (13): the posterior before given it, then the step given it
             let earlier =
-                condition(&state.covariance, &whole.transition, &(&whole.noise + &extent)).expect("positive definite");
+                condition(&state.covariance, &total.transition, &(&total.noise + &extent)).expect("positive definite");
             let later = condition(&step.noise, &rest.transition, &(&rest.noise + &extent)).expect("positive definite");
             let kept = DMatrix::identity(s, s) - &later.gain * &rest.transition;
             for (i, joint) in bridged[n].iter_mut().enumerate() {
@@ -57,17 +57,17 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
                     mean: &predicted.mean + &now.gain * (&a - &rest.transition * &predicted.mean - &rest.offset),
                     covariance: now.covariance(),
                 };
-                let smoothed = &state.mean + &earlier.gain * (&a - &whole.transition * &state.mean - &whole.offset);
+                let smoothed = &state.mean + &earlier.gain * (&a - &total.transition * &state.mean - &total.offset);
                 let moved = &step.transition * smoothed + &step.offset;
                 let two = Gaussian {
                     mean: &moved + &later.gain * (&a - &rest.transition * &moved - &rest.offset),
                     covariance: propagate(&(&kept * &step.transition), &earlier.covariance(), &later.covariance()),
                 };
                 *joint = advance(joint, &onward, &onward.offset(&step.offset, &rest.offset));
-                let original = seen(&upper(joint, s), &observation, &noise);
-                let (one, two) = (seen(&one, &observation, &noise), seen(&two, &observation, &noise));
+                let original = observed(&upper(joint, s), &observation, &noise);
+                let (one, two) = (observed(&one, &observation, &noise), observed(&two, &observation, &noise));
                 for (sum, pair) in sums.iter_mut().zip([(&original, &one), (&original, &two), (&one, &two)]) {
-                    *sum += log_weight.exp() * bhattacharyya(pair.0, pair.1) / ends as f64;
+                    *sum += log_weight.exp() * bhattacharyya(pair.0, pair.1) / count as f64;
                 }
                 correct(joint, &observation, &noise, &y);
             }
@@ -118,7 +118,7 @@ fn upper(joint: &Gaussian, s: usize) -> Gaussian {
 }
 
 /// The density of an observation.
-fn seen(state: &Gaussian, observation: &DMatrix<f64>, noise: &DMatrix<f64>) -> Gaussian {
+fn observed(state: &Gaussian, observation: &DMatrix<f64>, noise: &DMatrix<f64>) -> Gaussian {
     Gaussian { mean: observation * &state.mean, covariance: propagate(observation, &state.covariance, noise) }
 }
 

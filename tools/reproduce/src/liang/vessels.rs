@@ -1,7 +1,7 @@
 //! Figures 1 and 2: six harbours, vessels that move by constant velocity and end at one of them.
 
 use super::prediction_error::distances;
-use crate::movement::{METHODS, Movement, beliefs, mean, median, percent, scenario, share_on_top};
+use crate::movement::{METHODS, Movement, mean, median, percent, posteriors, scenario, share_on_top};
 use crate::report::{Exhibit, Table};
 use crate::{Effort, random};
 use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke, chart};
@@ -69,11 +69,11 @@ pub struct Vessel {
     pub reported: [f64; 2],
 }
 
-/// A vessel that goes to harbour `truth`: constant velocity given both ends.
+/// A vessel that goes to harbour `truth`: constant velocity given both endpoints.
 pub fn vessel(truth: usize, random: &mut random::Normals) -> Vessel {
     let steps = (random.between(80.0 * MINUTE, 150.0 * MINUTE) / STEP).round();
     let harbour = HARBOURS[truth];
-    // it leaves the rendezvous at about the speed that it needs
+    // it starts from the rendezvous at about the speed that it needs
     let velocity = harbour.map(|x| x / (steps * STEP));
     let covariance = diagonal(&[&[1e6, 1e6, 1.0, 1.0], EXTENT.as_slice()].concat());
     let configuration: Value = serde_json::from_value(json!({
@@ -102,8 +102,8 @@ pub fn drawn(count: usize) -> Vec<Vessel> {
 /// The probabilities over each track by the original bridging distributions and by Algorithm 1.
 pub fn families(vessels: &[Vessel], start: fn(&Vessel) -> Start) -> [Vec<Vec<Vec<f64>>>; 2] {
     ["bridging", "algorithm1"].map(|method| {
-        let believe = |vessel: &Vessel| beliefs(&predictor_of(method, start(vessel)), &vessel.movement);
-        vessels.iter().map(believe).collect()
+        let posterior = |vessel: &Vessel| posteriors(&predictor_of(method, start(vessel)), &vessel.movement);
+        vessels.iter().map(posterior).collect()
     })
 }
 
@@ -114,7 +114,7 @@ pub fn reported(vessel: &Vessel) -> Start {
 /// The mean share of the time during which the true harbour is on top.
 pub fn success(vessels: &[Vessel], method: &str) -> f64 {
     let share = |vessel: &Vessel| {
-        share_on_top(&beliefs(&predictor_of(method, reported(vessel)), &vessel.movement), &vessel.movement)
+        share_on_top(&posteriors(&predictor_of(method, reported(vessel)), &vessel.movement), &vessel.movement)
     };
     mean(&vessels.iter().map(share).collect::<Vec<f64>>())
 }
@@ -140,7 +140,7 @@ fn assumptions() -> Vec<String> {
     [
         "The harbours' places: 34 to 39 km from the rendezvous, around a bay (map above); the paper gives none.",
         "Metres and seconds; sigma = 0.1 in m/s^1.5, Sigma_i in m^2 and (m/s)^2, so that a vessel comes to rest at its harbour.",
-        "A track: constant velocity with sigma = 0.1, given both ends; it starts within about 1 km of the rendezvous with about the velocity it needs, and arrives after U(80 min, 150 min).",
+        "A track: constant velocity with sigma = 0.1, given both endpoints; it starts within about 1 km of the rendezvous with about the velocity it needs, and arrives after U(80 min, 150 min).",
         "One observation a minute, with a deviation of 10 m for each axis. Before the first observation the vessel is within about 1 km of the rendezvous, and the velocity is known to 0.5 m/s (AIS reports state speed and course).",
     ]
     .map(String::from)
@@ -152,10 +152,10 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
     let [original, proposed] = families(shown, reported);
     let unknown = families(shown, |_| Start::Unknown);
     let mut map = Vec::new();
-    for (vessel, beliefs) in shown.iter().zip(&proposed) {
-        for (pair, belief) in vessel.movement.observations.windows(2).zip(beliefs) {
+    for (vessel, posteriors) in shown.iter().zip(&proposed) {
+        for (pair, posterior) in vessel.movement.observations.windows(2).zip(posteriors) {
             let points = pair.iter().map(|(_, position)| (position[0] / 1000.0, position[1] / 1000.0));
-            let mut segment = Series::new("", heat(belief[vessel.movement.truth]), points);
+            let mut segment = Series::new("", heat(posterior[vessel.movement.truth]), points);
             segment.width = 3.0;
             map.push(segment);
         }
@@ -172,9 +172,9 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
         .iter()
         .enumerate()
         .map(|(i, vessel)| {
-            let line = |beliefs: &[Vec<f64>]| {
+            let line = |posteriors: &[Vec<f64>]| {
                 let times = vessel.movement.observations.iter().map(|(time, _)| time / MINUTE);
-                times.zip(beliefs.iter().map(|belief| belief[i])).collect::<Vec<_>>()
+                times.zip(posteriors.iter().map(|posterior| posterior[i])).collect::<Vec<_>>()
             };
             Panel {
                 title: format!("(b) p(D = D{} | y)", i + 1),
