@@ -7,10 +7,10 @@ import { effort, measureCases } from "./suite.mjs";
 
 const clock = () => performance.now();
 
-/** What one pointer event costs with ForesightJS, with ours and with nobody listening: 21 elements, none of which is hit. */
+/** What one pointer event costs with ForesightJS, with ours and with an empty listener: 21 elements, none of which is hit. */
 async function measureForesight(options) {
   const count = 21;
-  // It works in animation frames, of which a headless page has few: here a frame is over as soon as it is asked for.
+  // It works in animation frames, of which a headless page has few: here a frame is over as soon as it is requested.
   const frames = [];
   globalThis.requestAnimationFrame = (callback) => frames.push(callback);
   globalThis.cancelAnimationFrame = () => {};
@@ -32,16 +32,16 @@ async function measureForesight(options) {
     manager.register({ element, callback: () => called++ });
   }
   await new Promise((resolve) => setTimeout(resolve, 500));
-  const seen = [...manager.getManagerData.registeredElements.values()].filter((state) => state.isIntersectingWithViewport);
-  if (seen.length !== count) throw new Error(`ForesightJS looks at ${seen.length} elements of ${count}`);
+  const visible = [...manager.getManagerData.registeredElements.values()].filter((state) => state.isIntersectingWithViewport);
+  if (visible.length !== count) throw new Error(`ForesightJS tracks ${visible.length} elements of ${count}`);
 
   // Above all the elements: whatever is called back is not looked at any more.
   let next = 0;
-  const dispatch = (target, settle) => (times) => {
+  const dispatch = (target, after) => (times) => {
     for (let k = 0; k < times; k++, next++) {
       const clientX = 600 + 500 * Math.sin(next / 40);
       target.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY: 40, pointerType: "mouse" }));
-      settle?.();
+      after?.();
     }
   };
   const predictor = new Predictor(pointerScenario(targets));
@@ -52,21 +52,21 @@ async function measureForesight(options) {
     predictor.observe((time += 0.008), [clientX, clientY]);
     predictor.probabilities(into);
   });
-  const nobody = new EventTarget();
-  nobody.addEventListener("pointermove", () => {});
+  const idle = new EventTarget();
+  idle.addEventListener("pointermove", () => {});
   const frame = () => frames.splice(0).forEach((callback) => callback(0));
   const entries = [
     { name: "theirs", run: dispatch(document, frame) },
     { name: "ours", run: dispatch(ours) },
-    { name: "nobody", run: dispatch(nobody) },
+    { name: "idle", run: dispatch(idle) },
   ];
   const spent = interleave(entries, clock, options);
   if (called > 0) throw new Error("an element was hit, so that ForesightJS had less to do");
   const [{ x: clientX, y: clientY }] = targets;
   document.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY, pointerType: "mouse" }));
   frame();
-  if (called === 0) throw new Error("ForesightJS did not see the pointer");
-  const net = (name) => 1000 * (spent[name] - spent.nobody);
+  if (called === 0) throw new Error("ForesightJS did not handle the pointer event");
+  const net = (name) => 1000 * (spent[name] - spent.idle);
   return { microseconds: net("theirs"), ours: net("ours") };
 }
 

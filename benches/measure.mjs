@@ -7,15 +7,15 @@
  * @returns Milliseconds for one time of each, by name.
  */
 export function interleave(entries, clock, { rounds, least, warmUp }) {
-  const all = entries.map((one) => ({ ...one, times: calibrate(one.run, clock, least, warmUp), seen: [] }));
+  const all = entries.map((one) => ({ ...one, times: calibrate(one.run, clock, least, warmUp), measured: [] }));
   for (let round = 0; round < rounds; round++) {
     for (const entry of all) {
       const start = clock();
       entry.run(entry.times);
-      entry.seen.push((clock() - start) / entry.times);
+      entry.measured.push((clock() - start) / entry.times);
     }
   }
-  return Object.fromEntries(all.map(({ name, seen }) => [name, median(seen)]));
+  return Object.fromEntries(all.map(({ name, measured }) => [name, median(measured)]));
 }
 
 /** How many times take at least `least` milliseconds, after `warmUp` of them: engines compile better what runs often. */

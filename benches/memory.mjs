@@ -1,4 +1,4 @@
-// What predictors weigh in the memory of the WebAssembly, in a process of its own. Started by scripts/bench.mjs with the file
+// What predictors take in the memory of the WebAssembly, in a process of its own. Started by scripts/bench.mjs with the file
 // to write the numbers to.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -30,40 +30,40 @@ function running(given) {
   return predictor;
 }
 
-/** Nothing is freed, so that what is weighed next finds no memory that was used before. */
+/** Nothing is freed, so that what is measured next finds no memory that was used before. */
 const kept = [];
 
-/** Bytes that one more of what `make` gives takes. */
-function weigh(make, few, many) {
+/** Bytes that one more result of `make` takes. */
+function bytesOf(make, few, many) {
   const grow = (count) => {
     for (let k = 0; k < count; k++) kept.push(make());
     return memory.buffer.byteLength;
   };
-  // the first ones fill the gaps that making them leaves
+  // the first ones fill the gaps left by making them
   const before = grow(few);
   return (grow(many) - before) / many;
 }
 
-function weighMethod(method) {
+function bytesOfMethod(method) {
   console.log(`memory: ${method}`);
   const small = scenario({ method, count: 21 }, pointerScenario);
-  const predictor = weigh(() => running(small), 200, 1000);
+  const predictor = bytesOf(() => running(small), 200, 1000);
   const original = running(small);
-  const clone = weigh(() => original.clone(), 200, 1000);
+  const clone = bytesOf(() => original.clone(), 200, 1000);
   const destination = (sizes, from, to) => apart(["--destination", method, sizes, from, to]);
   const one = destination("one", 1000, 3000);
   return { predictor, clone, destination: one, own: destination("own", 1000, 3000), many: destination("one", 5000, 7000) };
 }
 
-/** The number that this file writes when it is asked in a process of its own, whose memory has no gaps yet. */
+/** The number that this file prints in a process of its own, whose memory has no gaps yet. */
 function apart(args) {
   return Number(execFileSync(process.execPath, [fileURLToPath(import.meta.url), ...args.map(String)], { encoding: "utf8" }));
 }
 
-/** Bytes that one more destination takes beside `from` to `to` others. */
-function weighDestination([method, sizes, from, to]) {
+/** Bytes that one more destination takes, averaged over `from` to `to` of them. */
+function bytesOfDestination([method, sizes, from, to]) {
   const given = [from, to].map((count) => scenario({ method, sizes, count: Number(count) }, pointerScenario));
-  const each = given.map((one) => weigh(() => running(one), 60, 30));
+  const each = given.map((one) => bytesOf(() => running(one), 60, 30));
   return (each[1] - each[0]) / (to - from);
 }
 
@@ -79,5 +79,5 @@ function stays(method) {
 
 const methods = ["pseudoObservation", "pointing"];
 const each = (measure) => Object.fromEntries(methods.map((method) => [method, measure(method)]));
-if (file === "--destination") console.log(weighDestination(process.argv.slice(3)));
-else writeFileSync(file, JSON.stringify({ weights: each(weighMethod), growth: each(stays) }));
+if (file === "--destination") console.log(bytesOfDestination(process.argv.slice(3)));
+else writeFileSync(file, JSON.stringify({ taken: each(bytesOfMethod), growth: each(stays) }));

@@ -91,7 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         for case in cases.iter().skip(from).take(third) {
             let name = case["name"].as_str().unwrap_or_default();
-            // nothing is prepared for cases that the command line leaves out
+            // nothing is prepared for cases that the command line excludes
             let mut movement = None;
             group.bench_function(name, |bencher| {
                 let movement = movement.get_or_insert_with(|| Movement::new(case, &positions, interval));

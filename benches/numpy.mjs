@@ -1,4 +1,4 @@
-// Literal Algorithm 1 in numpy beside the same in ours: how long it takes, and whether the answers agree.
+// Literal Algorithm 1 in numpy and in ours: how long it takes, and whether the answers agree.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { answer, root, run } from "../scripts/run.mjs";
@@ -25,7 +25,7 @@ async function findOrInstall() {
       await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "python3-numpy"], { env });
     });
   } catch {
-    return null; // the table says that it is missing
+    return null; // the table reports that it is missing
   }
   return find();
 }

@@ -169,7 +169,7 @@ function showPeers({ native, node, chromium, numpy }, methods, budget) {
     ["`kalman-filter`, a step for each destination", "Node", node.kalmanFilter.microseconds, node.kalmanFilter.ours],
     ["ForesightJS, a pointer event", "Chromium", chromium.foresight.microseconds, chromium.foresight.ours],
   ];
-  if (numpy) rows.splice(1, 0, ["Algorithm 1 in numpy, beside native", "Python", numpy.microseconds, natively(ours)]);
+  if (numpy) rows.splice(1, 0, ["Algorithm 1 in numpy, against native", "Python", numpy.microseconds, natively(ours)]);
   table(
     ["", "where", "theirs, µs", "ours, µs", "times"],
     rows.map(([name, where, theirs, own]) => [name, where, digits(theirs), digits(own), digits(theirs / own)]),
@@ -183,9 +183,9 @@ function showPeers({ native, node, chromium, numpy }, methods, budget) {
   }
 }
 
-function showMemory({ weights, growth }) {
+function showMemory({ taken, growth }) {
   console.log("Memory in wasm, in bytes:\n");
-  const methods = Object.keys(weights);
+  const methods = Object.keys(taken);
   const bytes = (x) => count(Math.round(x));
   const row = (name, of, limit) => {
     const budget = limit ? `${count(limit)}: ${methods.map((method) => met(of(method) <= limit)).join(", ")}` : "";
@@ -195,11 +195,11 @@ function showMemory({ weights, growth }) {
   table(
     ["", ...methods, "at most"],
     [
-      row("a predictor of 21", (method) => weights[method].predictor, 16_000),
-      row("a clone of it", (method) => weights[method].clone),
-      row("one more destination", (method) => weights[method].destination, 64),
-      row("one more, each of its own size", (method) => weights[method].own),
-      row("one more beyond 5000", (method) => weights[method].many),
+      row("a predictor of 21", (method) => taken[method].predictor, 16_000),
+      row("a clone of it", (method) => taken[method].clone),
+      row("one more destination", (method) => taken[method].destination, 64),
+      row("one more, each of its own size", (method) => taken[method].own),
+      row("one more beyond 5000", (method) => taken[method].many),
       row(`growth over ${count(observations)} observations`, (method) => growth[method].grown),
     ],
   );

@@ -25,7 +25,7 @@ export function step({ Predictor, pointerScenario }, { length = Infinity, before
 
 /**
  * Each case against as many `Math.exp` as it has pairs, in the same rounds: `{ microseconds, ratio }` by name, and what a call
- * takes in each way, in nanoseconds. `progress` is told the name of each before it begins; `where` names the engine.
+ * takes in each way, in nanoseconds. `progress` gets the name of each before it begins; `where` names the engine.
  */
 export async function measureCases(where, whither, list, clock, options, progress) {
   const results = {};
@@ -36,14 +36,14 @@ export async function measureCases(where, whither, list, clock, options, progres
   const keep = (time, calls) => {
     units.push({ plain: nanoseconds(time.plain, calls), unrolled: nanoseconds(time.unrolled, calls) });
   };
-  /** Before and after all cases, so that a bad unit is told at once. */
+  /** Before and after all cases, so that a bad unit is reported at once. */
   const checked = () => {
     const time = interleave([...ways(numbers), check(numbers)], clock, options);
     keep(time, numbers.length);
     checks.push(nanoseconds(time.check, numbers.length));
     return checkUnit(where, units, checks);
   };
-  // an engine compiles well only what has run for a while, and does so beside what runs
+  // an engine optimises only what has run for a while, and does so concurrently
   await progress("warm-up");
   const first = step(whither, list[0]);
   for (const begin = clock(); clock() - begin < 10 * options.warmUp; ) first.run(100);

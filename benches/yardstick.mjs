@@ -75,7 +75,7 @@ export function checkUnit(where, measured, checks) {
   if (!(apart <= FACTOR)) {
     throw new Error(
       `the unit is off, ${where}: a call of exp takes ${found.toFixed(2)} ns where it is the unit, and ${expected.toFixed(2)} ns ` +
-        `in an unrolled loop over an array, ${apart.toFixed(2)} times apart; at most ${FACTOR} times is believed`,
+        `in an unrolled loop over an array, ${apart.toFixed(2)} times apart; at most ${FACTOR} times is accepted`,
     );
   }
   const way = (name) => median(measured.map((times) => times[name]));

@@ -1,4 +1,4 @@
-// `npm run bench`: what a step costs, beside its peers, in one run: tables here, the numbers in target/bench/result.json.
+// `npm run bench`: what a step costs, compared with its peers, in one run: tables here, the numbers in target/bench/result.json.
 // `npm run bench -- --quick` takes less care, and under a minute once everything is built.
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { arch, cpus } from "node:os";
@@ -129,7 +129,7 @@ async function starts(browser, url, pages) {
   const result = [];
   for (const throttle of THROTTLES) {
     console.log(`Chromium: init() on a processor ${throttle} times as slow`);
-    const seen = { index: [], pointing: [] };
+    const measured = { index: [], pointing: [] };
     for (let k = 0; k < 2 * pages; k++) {
       const entry = k % 2 === 0 ? "index" : "pointing";
       const context = await browser.newContext();
@@ -137,10 +137,10 @@ async function starts(browser, url, pages) {
       const session = await context.newCDPSession(page);
       await page.goto(url);
       await session.send("Emulation.setCPUThrottlingRate", { rate: throttle });
-      seen[entry].push(await page.evaluate(firstPrediction, entry));
+      measured[entry].push(await page.evaluate(firstPrediction, entry));
       await context.close();
     }
-    result.push({ throttle, whither: median(seen.index), pointing: median(seen.pointing) });
+    result.push({ throttle, whither: median(measured.index), pointing: median(measured.pointing) });
   }
   return result;
 }

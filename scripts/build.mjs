@@ -17,8 +17,8 @@ const bundles = [
   { entries: ["study-workerd"], module: "study" },
 ];
 
-/** For resolvers that do not read `exports`: files beside package.json, where they look for `whither/slim` and the others. */
-const beside = ["slim", "pointing", "study"];
+/** For resolvers that do not read `exports`: files next to package.json, where they look for `whither/slim` and the others. */
+const stubs = ["slim", "pointing", "study"];
 
 /**
  * The syntax: what README promises (Chrome and Edge 94, Firefox 113, Safari 16.4, Node 20.19), and no static blocks, which Metro
@@ -35,7 +35,7 @@ export async function build({ dev = false } = {}) {
   await buildWasm({ dev });
   const inputs = ["js", "tsconfig.json", "package.json", "package-lock.json", "scripts/build.mjs"];
   const files = ["dist/index.js", "dist/types/index.d.ts", ...modules.map(({ name }) => `dist/${name}.wasm`)];
-  const outputs = [...files, ...beside.flatMap((name) => [`${name}.js`, `${name}.d.ts`])];
+  const outputs = [...files, ...stubs.flatMap((name) => [`${name}.js`, `${name}.d.ts`])];
   // its declarations stay as they were: those who type-check build it all
   const doing = "building the package, dist/";
   await incremental("dist", { inputs, outputs: dev ? [] : outputs, variant: dev ? " dev" : "", doing }, async () => {
@@ -50,7 +50,7 @@ export async function build({ dev = false } = {}) {
       copyFileSync(join(root, `js/generated/${name}_bg.wasm`), join(dist, `${name}.wasm`));
       copyFileSync(join(root, "js/entries/module.d.ts"), join(dist, `${name}.wasm.d.ts`));
     }
-    for (const name of beside) {
+    for (const name of stubs) {
       writeFileSync(join(root, `${name}.js`), `export * from "./dist/${name}.js";\n`);
       writeFileSync(join(root, `${name}.d.ts`), `export * from "./dist/types/${name}.js";\n`);
     }

@@ -1,4 +1,4 @@
-// Cargo, whose work is counted and told while it compiles, and which is quiet where there is nothing to compile.
+// Cargo, with progress while it compiles, and without output where there is nothing to compile.
 import { capture, Failure } from "./run.mjs";
 import { stage } from "./stage.mjs";
 
@@ -11,19 +11,19 @@ const bar = {
   CARGO_FUTURE_INCOMPAT_REPORT_FREQUENCY: "never",
 };
 
-/** What it tells of its own work; everything else is a warning or an error. */
+/** What it prints of its own work; everything else is a warning or an error. */
 const WORK = /^\s*(Compiling|Building|Downloading|Downloaded|Updating|Locking|Adding|Blocking|Finished|Executable)\b/;
 
 /** What takes its time. */
 const LONG = /^\s*(Compiling|Downloading|Updating|Blocking)\b/;
 
-/** Runs `cargo build` or another of its commands that compile, told as `what`; warnings and errors are shown at the end. */
+/** Runs `cargo build` or another of its commands that compile, reported as `what`; warnings and errors are shown at the end. */
 export async function compile(what, args, { env = {}, ...options } = {}) {
   let running = null;
   let cut = "";
   const others = [];
   const read = (text) => {
-    // the bar is written over itself: a carriage return ends it
+    // the bar is written over itself: it ends with a carriage return
     const lines = (cut + text).replace(/\x1b\[\w*/g, "").split(/[\r\n]/);
     cut = lines.pop();
     for (const line of lines) {

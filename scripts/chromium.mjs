@@ -44,7 +44,7 @@ export async function ensureChromium() {
 export async function launch() {
   const { chromium } = await import("playwright-core");
   const executablePath = await find();
-  if (executablePath === null) throw new Failure("there is no browser: npm test installs one or says how");
+  if (executablePath === null) throw new Failure("there is no browser: npm test installs one or prints how");
   return chromium.launch({
     executablePath,
     // As root there is no sandbox; the rest keeps the browser from looking for the network.

@@ -1,4 +1,4 @@
-// How many tests passed, failed and were left out, by what the test runners say; a reporter for Node's, which by itself does
+// How many tests passed, failed and were left out, by the test runners' output; a reporter for Node's, which by itself does
 // not count a group that is left out.
 
 /** What each kind of counting begins with. */

@@ -25,7 +25,7 @@ await main(import.meta.url, async () => {
     server: { port, strictPort: true, fs: { allow: [root] }, watch: { ignored: [join(root, "dist/**")] } },
   });
   await server.listen();
-  console.log(`\nThe page is at ${server.resolvedUrls.local[0]} (Ctrl+C ends it)`);
+  console.log(`\nThe page is at ${server.resolvedUrls.local[0]} (Ctrl+C stops it)`);
   console.log("A change in www/ is there at once; one in src/ or js/ rebuilds the package and reloads the page.");
   rebuild(server);
 });

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { capture, Failure, main, root } from "./run.mjs";
 import { during } from "./stage.mjs";
 
-/** Warnings that every dry run has: nobody is logged in, nothing is uploaded, the tests stay in the repository. */
+/** Warnings that every dry run has: no login, no upload, the tests stay in the repository. */
 const USUAL = [
   /^npm warn publish This command requires you to be logged in to \S+ \(dry-run\)$/,
   /^warning: ignoring test `\w+` as `tests\/\S+` is not included in the published package$/,

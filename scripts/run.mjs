@@ -13,7 +13,7 @@ export const environment = { ...process.env };
 delete environment.RUSTFLAGS;
 delete environment.CARGO_ENCODED_RUSTFLAGS;
 
-/** A failure that is told in one sentence, without a stack. */
+/** A failure that is printed in one sentence, without a stack. */
 export class Failure extends Error {}
 
 /**
@@ -58,7 +58,7 @@ export async function answer(program, args) {
   }
 }
 
-/** Runs the work of a command line script if `url` is that script; tells a `Failure` in one line. */
+/** Runs the work of a command line script if `url` is that script; prints a `Failure` in one line. */
 export async function main(url, work) {
   if (process.argv[1] === undefined || fileURLToPath(url) !== process.argv[1]) return;
   try {

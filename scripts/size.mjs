@@ -1,4 +1,4 @@
-// `npm run size`: what the package weighs, and what of it is within the budget; the numbers in target/size.json.
+// `npm run size`: the sizes of the package, and which are within their budgets; the numbers in target/size.json.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
@@ -26,17 +26,17 @@ const parts = [
 
 /** `{ name, raw, gzip, brotli, budget? }` in bytes for each part of the package that is in `dist`, each file packed by itself. */
 export function sizes(dist = join(root, "dist")) {
-  const weights = new Map();
-  const weigh = (file) => {
-    if (!weights.has(file)) {
+  const known = new Map();
+  const measure = (file) => {
+    if (!known.has(file)) {
       const bytes = readFileSync(join(dist, file));
       const gzip = gzipSync(bytes, { level: constants.Z_BEST_COMPRESSION }).length;
-      weights.set(file, { raw: bytes.length, gzip, brotli: brotliCompressSync(bytes).length });
+      known.set(file, { raw: bytes.length, gzip, brotli: brotliCompressSync(bytes).length });
     }
-    return weights.get(file);
+    return known.get(file);
   };
   return parts.map(({ name, files, budget }) => {
-    const sum = (key) => files.reduce((total, file) => total + weigh(file)[key], 0);
+    const sum = (key) => files.reduce((total, file) => total + measure(file)[key], 0);
     return { name, raw: sum("raw"), gzip: sum("gzip"), brotli: sum("brotli"), budget };
   });
 }

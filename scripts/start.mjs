@@ -1,4 +1,4 @@
-// `npm start`: everything that it takes to see the page.
+// `npm start`: everything that it takes to open the page.
 import { buildDemo, folder } from "./build-demo.mjs";
 import { main } from "./run.mjs";
 import { serve, wantedPort } from "./serve.mjs";
@@ -9,5 +9,5 @@ await main(import.meta.url, async () => {
   await (await serve(folder, { port })).close();
   await buildDemo();
   const { url } = await serve(folder, { port });
-  console.log(`\nThe page is at ${url} (Ctrl+C ends it)`);
+  console.log(`\nThe page is at ${url} (Ctrl+C stops it)`);
 });

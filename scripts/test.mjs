@@ -56,7 +56,7 @@ async function check(program, args, env) {
   await record(program, args, env, ({ code }) => ({ passed: Number(code === 0), failed: Number(code !== 0), skipped: 0 }));
 }
 
-/** A run of a test runner, which says how many tests there were. */
+/** A run of a test runner, which prints how many tests there were. */
 async function tests(program, args, env) {
   await record(program, args, env, ({ code, output }) => {
     const counts = program === "cargo" ? countCargo(output) : countNode(output);
