@@ -1,4 +1,4 @@
-// A server of static files, as plain as those that the package meets in the wild.
+// A server of static files, with no more features than common static hosts.
 import { createReadStream, existsSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize, sep } from "node:path";

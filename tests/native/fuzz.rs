@@ -23,7 +23,7 @@ impl Draw {
     }
 
     /// An extreme number, one that is refused, or a random one.
-    fn wild(&mut self) -> f64 {
+    fn extreme(&mut self) -> f64 {
         let edge = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e-50, 1e-20, 1e12, 1e20, 1e49, -1e49, 1e50, 1e51, 1e200, f64::MAX];
         let none = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
         match self.below(10) {
@@ -40,14 +40,14 @@ impl Draw {
             2 => Value::text(["", "a", "uniform", "horizon", "custom", "NaN", "bridging"][self.below(7)]),
             3 => Value::List(vec![]),
             4 => Value::Map(vec![]),
-            5 => Value::List((0..self.below(4)).map(|_| Value::Number(self.wild())).collect()),
+            5 => Value::List((0..self.below(4)).map(|_| Value::Number(self.extreme())).collect()),
             6 => Value::Number(self.below(2000) as f64),
-            _ => Value::Number(self.wild()),
+            _ => Value::Number(self.extreme()),
         }
     }
 
     /// Something, anywhere in the tree, is not as it should be.
-    fn spoil(&mut self, value: &mut Value) {
+    fn corrupt(&mut self, value: &mut Value) {
         match value {
             Value::Map(entries) if !entries.is_empty() && self.chance(0.9) => {
                 let i = self.below(entries.len());
@@ -55,7 +55,7 @@ impl Draw {
                     0 => drop(entries.remove(i)),
                     1 => entries[i].0.push('x'),
                     2 => entries.push(entries[i].clone()),
-                    _ => self.spoil(&mut entries[i].1),
+                    _ => self.corrupt(&mut entries[i].1),
                 }
             }
             Value::List(items) if !items.is_empty() && self.chance(0.9) => {
@@ -63,7 +63,7 @@ impl Draw {
                 match self.below(12) {
                     0 => drop(items.remove(i)),
                     1 => items.push(items[i].clone()),
-                    _ => self.spoil(&mut items[i]),
+                    _ => self.corrupt(&mut items[i]),
                 }
             }
             Value::Number(x) if self.chance(0.5) => *x *= 10f64.powf(self.within(-30.0, 30.0)),
@@ -125,7 +125,7 @@ impl Draw {
             value(&scenario)
         };
         while self.chance(0.35) {
-            self.spoil(&mut scenario);
+            self.corrupt(&mut scenario);
         }
         scenario
     }
@@ -143,7 +143,7 @@ impl Draw {
         }
         let mut destination = value(&destination);
         if self.chance(0.2) {
-            self.spoil(&mut destination);
+            self.corrupt(&mut destination);
         }
         destination
     }
@@ -154,7 +154,7 @@ impl Draw {
         match self.below(24) {
             0..=10 => {
                 let next = match self.below(12) {
-                    0 => self.wild(),
+                    0 => self.extreme(),
                     1 | 2 => *time,
                     3 => *time + 1e-4,
                     4 => *time - 1e-9,
@@ -164,7 +164,7 @@ impl Draw {
                 let mut position: Vec<_> =
                     (0..predictor.axes()).map(|_| self.chance(0.95).then(|| self.within(-size, size))).collect();
                 if self.chance(0.03) {
-                    position = (0..self.below(5)).map(|_| Some(self.wild())).collect();
+                    position = (0..self.below(5)).map(|_| Some(self.extreme())).collect();
                 }
                 let noise = match self.below(10) {
                     0 => Some(self.junk()),
@@ -175,10 +175,11 @@ impl Draw {
                 *time = next;
             }
             11 => drop(predictor.arrival(self.chance(0.5).then_some(&*id))?),
-            12 => drop(
-                predictor
-                    .forecast(*time + self.within(-0.1, 5.0).max(if self.chance(0.1) { self.wild() } else { 0.0 }))?,
-            ),
+            12 => {
+                drop(predictor.forecast(
+                    *time + self.within(-0.1, 5.0).max(if self.chance(0.1) { self.extreme() } else { 0.0 }),
+                )?)
+            }
             13 => drop(predictor.path(&id, &[*time, *time + self.within(-0.1, 3.0)])?),
             14 => predictor.add_destination(&self.destination(predictor))?,
             15 => predictor.update_destination(&id, &self.destination(predictor))?,
@@ -198,7 +199,7 @@ impl Draw {
             }
             21 => {
                 let mut snapshot = predictor.snapshot();
-                self.spoil(&mut snapshot);
+                self.corrupt(&mut snapshot);
                 drop(Predictor::restore(&snapshot));
             }
             22 => drop(predictor.log_likelihoods().to_vec()),

@@ -77,7 +77,7 @@ const page = `<!doctype html><link rel="icon" href="data:,"><style>
 </style>${icons}<i data-icon id="hidden" style="display:none"></i><script type="module" src="main.js"></script>`;
 
 /** The package, whose last answer can be read in the page, and replaced. */
-const heard = (entry) => `import { Predictor as Original } from "${entry}";
+const exposed = (entry) => `import { Predictor as Original } from "${entry}";
 export { init, pointerScenario } from "${entry}";
 export class Predictor extends Original {
   get best() {
@@ -91,8 +91,8 @@ const last = [1048, 348];
 
 async function onPages(folder, entry) {
   write(folder, "site/index.html", page);
-  write(folder, "main.js", onAPage.replace(/from "whither"/, 'from "./heard.js"'));
-  write(folder, "heard.js", heard(entry));
+  write(folder, "main.js", onAPage.replace(/from "whither"/, 'from "./exposed.js"'));
+  write(folder, "exposed.js", exposed(entry));
   const bundle = { bundle: true, format: "esm", target: "es2022", outdir: "site", logLevel: "warning" };
   await esbuild.build({ absWorkingDir: folder, entryPoints: ["main.js"], ...bundle });
 
