@@ -36,7 +36,10 @@ describe("ghost", () => {
     await close();
   });
 
-  for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
+  for (const viewport of [
+    { width: 1280, height: 800 },
+    { width: 390, height: 844 },
+  ]) {
     it(`lights something most of the time, moves slowly, and hides no icon that it presses, at ${viewport.width} px`, async () => {
       const { page, close } = await fresh({ viewport });
       await page.clock.runFor(1200);
@@ -52,7 +55,11 @@ describe("ghost", () => {
           if (icons.some((icon) => icon.dataset.predicted === "true")) counted.ringed += 1;
           if (document.querySelector("#ghost .trail").getAttribute("d")) counted.trails += 1;
           const at = arrow.getBoundingClientRect();
-          if (last) counted.fastest = Math.max(counted.fastest, (1000 * Math.hypot(at.left - last.left, at.top - last.top)) / (now - last.now));
+          if (last)
+            counted.fastest = Math.max(
+              counted.fastest,
+              (1000 * Math.hypot(at.left - last.left, at.top - last.top)) / (now - last.now),
+            );
           last = { now, left: at.left, top: at.top };
           requestAnimationFrame(watch);
         };
@@ -62,7 +69,8 @@ describe("ghost", () => {
           if (!icon) return;
           window.counted.presses += 1;
           const [at, glyph] = [arrow, icon.querySelector(".glyph")].map((element) => element.getBoundingClientRect());
-          if (at.left < glyph.right && at.right > glyph.left && at.top < glyph.bottom && at.bottom > glyph.top) window.counted.hidden.push(icon.dataset.destination);
+          if (at.left < glyph.right && at.right > glyph.left && at.top < glyph.bottom && at.bottom > glyph.top)
+            window.counted.hidden.push(icon.dataset.destination);
         }).observe(document.querySelector("#grid"), { subtree: true, attributeFilter: ["data-pressed"] });
       });
       await page.clock.runFor(15_000);

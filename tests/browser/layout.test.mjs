@@ -21,9 +21,13 @@ describe("layout", () => {
   for (const [name, selector, style] of MOVES) {
     it(`follows ${name}`, async () => {
       const { page, problems, close } = await open(site.browser, site.url);
-      await page.evaluate(([selector, style]) => document.querySelector(selector).style.cssText += style, [selector, style]);
+      await page.evaluate(([selector, style]) => (document.querySelector(selector).style.cssText += style), [selector, style]);
       const hand = await mouse(page);
-      for (const [from, to] of [["media", "tyres"], ["fuel", "navigation"], ["help", "phone"]]) {
+      for (const [from, to] of [
+        ["media", "tyres"],
+        ["fuel", "navigation"],
+        ["help", "phone"],
+      ]) {
         const { shown } = await head(page, hand, from, to, { seed: 7, share: 0.85 });
         assert.equal(shown.top.id, to, `from ${from}`);
       }
@@ -58,7 +62,10 @@ describe("layout", () => {
         await page.waitForFunction((ratio) => devicePixelRatio === ratio, deviceScaleFactor);
         await nextFrame(page);
         const found = await canvases(page);
-        assert.ok(found.length > 0 && found.every((ratio) => Math.abs(ratio - deviceScaleFactor) < 0.02), `${deviceScaleFactor}: ${found}`);
+        assert.ok(
+          found.length > 0 && found.every((ratio) => Math.abs(ratio - deviceScaleFactor) < 0.02),
+          `${deviceScaleFactor}: ${found}`,
+        );
       }
       assert.deepEqual(problems, []);
       await close();

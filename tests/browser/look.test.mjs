@@ -21,7 +21,11 @@ describe("look", () => {
     await hand.press(end);
   }
 
-  for (const [width, height] of [[1280, 800], [390, 844], [360, 740]]) {
+  for (const [width, height] of [
+    [1280, 800],
+    [390, 844],
+    [360, 740],
+  ]) {
     it(`shifts nothing while it loads and while numbers come, at ${width} px`, async () => {
       const { page, close } = await fresh({ viewport: { width, height } });
       await press(page);
@@ -31,12 +35,20 @@ describe("look", () => {
       assert.ok(sum < 0.01, JSON.stringify(moved));
     });
 
-    for (const [name, where] of [["page", PAGE], ["page of the sequences", SEQUENCES]]) {
+    for (const [name, where] of [
+      ["page", PAGE],
+      ["page of the sequences", SEQUENCES],
+    ]) {
       it(`shifts nothing where the ${name} comes over a slow line, at ${width} px`, async () => {
         const { page, close } = await fresh({ viewport: { width, height } }, where);
         const session = await page.context().newCDPSession(page);
         await session.send("Network.setCacheDisabled", { cacheDisabled: true });
-        await session.send("Network.emulateNetworkConditions", { offline: false, latency: 100, downloadThroughput: 300_000, uploadThroughput: 100_000 });
+        await session.send("Network.emulateNetworkConditions", {
+          offline: false,
+          latency: 100,
+          downloadThroughput: 300_000,
+          uploadThroughput: 100_000,
+        });
         await page.reload();
         await page.waitForFunction(where.ready);
         const moved = await shifts(page);
@@ -90,8 +102,17 @@ describe("look", () => {
   });
 
   describe("large text", () => {
-    for (const [width, height] of [[1920, 1080], [1280, 800], [900, 700], [390, 844], [360, 740]]) {
-      for (const [name, where] of [["page", undefined], ["page of the sequences", SEQUENCES]]) {
+    for (const [width, height] of [
+      [1920, 1080],
+      [1280, 800],
+      [900, 700],
+      [390, 844],
+      [360, 740],
+    ]) {
+      for (const [name, where] of [
+        ["page", undefined],
+        ["page of the sequences", SEQUENCES],
+      ]) {
         it(`collides nowhere and is cut nowhere at 200%, ${width} px, on the ${name}`, async () => {
           const { page, problems, close } = await fresh({ viewport: { width, height } }, where);
           await page.evaluate(() => (document.documentElement.style.fontSize = "200%"));
@@ -139,7 +160,10 @@ describe("look", () => {
 
   it("shows an example on the idle chart, with nothing cut off, and labels it as one", async () => {
     const { page, problems, close } = await fresh({ reducedMotion: "reduce" });
-    assert.match(await page.locator("#lead").textContent(), /^An example, until you move\. Seats: right \d+ ms before the press$/);
+    assert.match(
+      await page.locator("#lead").textContent(),
+      /^An example, until you move\. Seats: right \d+ ms before the press$/,
+    );
     const edges = await page.evaluate(() => {
       const canvas = document.querySelector("#chart canvas");
       const { width, height } = canvas;
@@ -170,7 +194,12 @@ describe("look", () => {
         const links = await page.locator(".links a").all();
         assert.ok(links.length >= 2);
         for (const link of links) {
-          const { x, y, width: wide, height } = (await link.boundingBox()) ?? assert.fail(`${await link.textContent()} has no box`);
+          const {
+            x,
+            y,
+            width: wide,
+            height,
+          } = (await link.boundingBox()) ?? assert.fail(`${await link.textContent()} has no box`);
           assert.ok(x >= 0 && x + wide <= width && height >= 44, `${await link.textContent()}: ${[x, y, wide, height]}`);
         }
         await links.at(-1).click();
@@ -183,7 +212,8 @@ describe("look", () => {
   it("names every slider after what it sets, and gives its value as it is meant", async () => {
     const named = async (page) => {
       const found = [];
-      for (const slider of await page.getByRole("slider").all()) found.push(/slider "([^"]+)"/.exec(await slider.ariaSnapshot())?.[1] ?? "");
+      for (const slider of await page.getByRole("slider").all())
+        found.push(/slider "([^"]+)"/.exec(await slider.ariaSnapshot())?.[1] ?? "");
       return found;
     };
     const first = await fresh();
@@ -207,7 +237,8 @@ describe("look", () => {
 /** Runs in the page: texts that lie over one another or outside of what shows them, and what scrolls sideways. */
 function collisions() {
   const found = [];
-  if (document.documentElement.scrollWidth > innerWidth) found.push(`the page is ${document.documentElement.scrollWidth} px wide`);
+  if (document.documentElement.scrollWidth > innerWidth)
+    found.push(`the page is ${document.documentElement.scrollWidth} px wide`);
   const texts = [];
   for (const element of document.querySelectorAll("body *")) {
     if (element.closest(".hidden, .skip, svg, select, details:not([open]) > :not(summary)")) continue;
@@ -220,17 +251,25 @@ function collisions() {
       for (const box of range.getClientRects()) texts.push({ element, box, text: node.textContent.trim().slice(0, 30) });
     }
     const own = [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.textContent.trim());
-    if (own && ["hidden", "clip"].includes(getComputedStyle(element).overflowX) && element.scrollWidth > element.clientWidth + 1) found.push(`cut: ${element.textContent.trim().slice(0, 30)}`);
+    if (own && ["hidden", "clip"].includes(getComputedStyle(element).overflowX) && element.scrollWidth > element.clientWidth + 1)
+      found.push(`cut: ${element.textContent.trim().slice(0, 30)}`);
   }
-  const over = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+  const over = (a, b) =>
+    Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
   texts.forEach(({ element, box, text }, index) => {
     // the height of the letters, not that of the line
-    const letters = (rect) => ({ left: rect.left, right: rect.right, top: rect.top + 0.2 * rect.height, bottom: rect.bottom - 0.2 * rect.height });
+    const letters = (rect) => ({
+      left: rect.left,
+      right: rect.right,
+      top: rect.top + 0.2 * rect.height,
+      bottom: rect.bottom - 0.2 * rect.height,
+    });
     for (const other of texts.slice(index + 1)) {
       if (other.element !== element && over(letters(box), letters(other.box))) found.push(`${text} over ${other.text}`);
     }
     const inside = element.closest("button")?.getBoundingClientRect();
-    if (inside && (box.left < inside.left - 1 || box.right > inside.right + 1 || box.bottom > inside.bottom + 1)) found.push(`${text} is outside its button`);
+    if (inside && (box.left < inside.left - 1 || box.right > inside.right + 1 || box.bottom > inside.bottom + 1))
+      found.push(`${text} is outside its button`);
     if (!element.closest("pre") && (box.right > innerWidth + 1 || box.left < -1)) found.push(`${text} is outside the page`);
   });
   return found;

@@ -29,7 +29,10 @@ describe("page", () => {
     it(`shows 21 icons in ${columns} columns at ${width} x ${height}, and scrolls nothing sideways`, async () => {
       const { page, problems, close } = await fresh({ viewport: { width, height } });
       const icons = await middles(page);
-      assert.deepEqual(icons.map((icon) => icon.id), IDS.flat());
+      assert.deepEqual(
+        icons.map((icon) => icon.id),
+        IDS.flat(),
+      );
       assert.equal(new Set(icons.map((icon) => Math.round(icon.x))).size, columns);
       for (const icon of icons) assert.ok(icon.width >= 44 && icon.height >= 44, `${icon.id} is ${icon.width} x ${icon.height}`);
       assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
@@ -95,7 +98,9 @@ describe("page", () => {
   it("changes the method, the noise and the points without a message on the console", async () => {
     const { page, problems, close } = await fresh();
     await page.locator("summary").click();
-    const methods = await page.locator("select[name=method] option").evaluateAll((options) => options.map((option) => option.value));
+    const methods = await page
+      .locator("select[name=method] option")
+      .evaluateAll((options) => options.map((option) => option.value));
     assert.ok(methods.includes("pointing") && methods.includes("algorithm1") && methods.includes("pseudoObservation"));
     const hand = await mouse(page);
     const icons = await middles(page);
@@ -119,8 +124,13 @@ describe("page", () => {
 
   it("keeps still where motion is to be reduced", async () => {
     const { page, close } = await fresh({ reducedMotion: "reduce" });
-    const moving = await page.evaluate(() =>
-      [...document.querySelectorAll("*")].filter((element) => getComputedStyle(element).transitionDuration.split(", ").some((time) => time !== "0s")).length,
+    const moving = await page.evaluate(
+      () =>
+        [...document.querySelectorAll("*")].filter((element) =>
+          getComputedStyle(element)
+            .transitionDuration.split(", ")
+            .some((time) => time !== "0s"),
+        ).length,
     );
     assert.equal(moving, 0);
     await close();
@@ -143,8 +153,13 @@ describe("page", () => {
     await page.setContent('<button id="left">Left</button><button id="right" style="margin-left: 700px">Right</button>');
     const errors = [];
     page.on("pageerror", (error) => errors.push(error.message));
-    const logged = page.waitForEvent("console", { predicate: async (message) => (await message.args()[0]?.jsonValue())?.probability > 0.9 });
-    await page.evaluate((url) => import(url), `data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
+    const logged = page.waitForEvent("console", {
+      predicate: async (message) => (await message.args()[0]?.jsonValue())?.probability > 0.9,
+    });
+    await page.evaluate(
+      (url) => import(url),
+      `data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`,
+    );
     const hand = await mouse(page);
     await hand.play(movement({ x: 40, y: 300 }, { x: 780, y: 18 }, 40, { seed: 1 }));
     assert.equal((await (await logged).args()[0].jsonValue()).id, "right");
@@ -171,7 +186,9 @@ function contrasts() {
     return [...canvas.getImageData(0, 0, 1, 1).data];
   };
   const luminance = ([red, green, blue]) => {
-    const linear = [red, green, blue].map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+    const linear = [red, green, blue].map((part) =>
+      part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4,
+    );
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
   };
   const ground = (element) => {

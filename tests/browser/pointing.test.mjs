@@ -39,7 +39,9 @@ describe("pointing", () => {
         if (shown.top.id !== icon.id) wrong.push(`${Math.round(from.x)},${Math.round(from.y)} to ${icon.id}: ${shown.top.id}`);
       }
     }
-    test.diagnostic(`${count - wrong.length} of ${count} right at 80% of the time${wrong.map((each) => `\n  wrong: ${each}`).join("")}`);
+    test.diagnostic(
+      `${count - wrong.length} of ${count} right at 80% of the time${wrong.map((each) => `\n  wrong: ${each}`).join("")}`,
+    );
     assert.ok(wrong.length <= 0.05 * count, wrong.join("\n"));
     assert.deepEqual(problems, []);
   });
@@ -49,7 +51,10 @@ describe("pointing", () => {
     const hand = await mouse(page);
     const { shown } = await head(page, hand, "fuel", "seats", { seed: 5 });
     assert.ok(shown.top.probability >= 0.8, `${shown.top.id} ${shown.top.probability}`);
-    assert.deepEqual(shown.icons.filter((icon) => icon.predicted).map((icon) => icon.id), ["seats"]);
+    assert.deepEqual(
+      shown.icons.filter((icon) => icon.predicted).map((icon) => icon.id),
+      ["seats"],
+    );
     assert.equal(shown.status, "Heading for Seats.");
     await page.waitForFunction(() => document.querySelector("#announcement").textContent === "Heading for Seats.");
   });
@@ -85,7 +90,10 @@ describe("pointing", () => {
     assert.deepEqual(problems, []);
   });
 
-  for (const [name, rest] of [["a hover of 120 ms", 0.12], ["a rest", 0.5]]) {
+  for (const [name, rest] of [
+    ["a hover of 120 ms", 0.12],
+    ["a rest", 0.5],
+  ]) {
     it(`does not lose a right prediction to ${name} before the press, nor to a hand that comes to rest`, async () => {
       const { page, close } = await open(site.browser, site.url);
       const hand = await mouse(page);
@@ -115,7 +123,11 @@ describe("pointing", () => {
       requestAnimationFrame(watch);
     });
     const hand = await mouse(page);
-    for (const [index, [from, to]] of [["fuel", "seats"], ["help", "phone"], ["navigation", "weather"]].entries()) {
+    for (const [index, [from, to]] of [
+      ["fuel", "seats"],
+      ["help", "phone"],
+      ["navigation", "weather"],
+    ].entries()) {
       await head(page, hand, from, to, { seed: index });
     }
     const frames = (await page.evaluate(() => window.frames)).filter(({ status }) => status !== "Move towards an icon.");
@@ -124,7 +136,10 @@ describe("pointing", () => {
     for (const { ringed, rows, status } of frames) {
       if (ringed.length === 0) assert.match(status, /^Not sure yet\.$|^Leaving \w+\.$/);
       else assert.equal(status, `Heading for ${ringed.join()}.`);
-      assert.deepEqual(rows, rows.toSorted((a, b) => b - a));
+      assert.deepEqual(
+        rows,
+        rows.toSorted((a, b) => b - a),
+      );
     }
   });
 
@@ -143,7 +158,8 @@ describe("pointing", () => {
           if (pressed !== null) light0 ??= light();
           if (pressed !== null && seats.dataset.predicted !== "true") opened ??= now - pressed;
           if (opened !== null && screen.hasAttribute("data-fading") && light() < light0 && light() > 0.1) dimming += 1;
-          if (opened !== null && !screen.hasAttribute("data-fading")) resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
+          if (opened !== null && !screen.hasAttribute("data-fading"))
+            resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
           else requestAnimationFrame(watch);
         };
         requestAnimationFrame(watch);
@@ -174,9 +190,12 @@ describe("pointing", () => {
       await hand.play([[0, from.x, from.y]]);
       await hand.rest(REST);
       // A page that has no time for events finds them all in one afterwards.
-      const work = page.evaluate((until) => {
-        while (Date.now() < until);
-      }, busy ? Date.now() + 1000 : 0);
+      const work = page.evaluate(
+        (until) => {
+          while (Date.now() < until);
+        },
+        busy ? Date.now() + 1000 : 0,
+      );
       await Promise.all([work, hand.play(samples)]);
       shown.push(await read(page));
       most.push(await page.evaluate(() => window.most));
@@ -184,7 +203,10 @@ describe("pointing", () => {
     assert.equal(shown[1].top.id, "media");
     assert.ok(most[1] > 20, `at most ${most[1]} samples came at once`);
     for (const [index, icon] of shown[0].icons.entries()) {
-      assert.ok(Math.abs(icon.probability - shown[1].icons[index].probability) < 0.02, `${icon.id}: ${icon.probability}, ${shown[1].icons[index].probability}`);
+      assert.ok(
+        Math.abs(icon.probability - shown[1].icons[index].probability) < 0.02,
+        `${icon.id}: ${icon.probability}, ${shown[1].icons[index].probability}`,
+      );
     }
   });
 
@@ -199,7 +221,10 @@ describe("pointing", () => {
       delete document.hidden;
     });
     const hidden = await read(page);
-    assert.deepEqual(hidden.icons.filter((icon) => icon.predicted), []);
+    assert.deepEqual(
+      hidden.icons.filter((icon) => icon.predicted),
+      [],
+    );
     assert.ok(hidden.icons.every((icon) => Math.abs(icon.probability - hidden.icons[0].probability) < 1e-4));
     // at once, without a rest: the observations before would favour the seats
     const icons = await middles(page);

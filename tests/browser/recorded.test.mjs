@@ -43,8 +43,12 @@ describe("recorded hands", { skip }, () => {
         await hand.press({ x: samples.at(-1)[1], y: samples.at(-1)[2] });
       }
     }
-    const shown = await page.evaluate(() => ["median", "early-right", "early-wrong", "presses"].map((id) => document.getElementById(id).textContent));
-    test.diagnostic(`right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page shows ${shown.join(", ")}`);
+    const shown = await page.evaluate(() =>
+      ["median", "early-right", "early-wrong", "presses"].map((id) => document.getElementById(id).textContent),
+    );
+    test.diagnostic(
+      `right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page shows ${shown.join(", ")}`,
+    );
     assert.equal(count, 50);
     assert.equal(shown[3], "Over 50 presses");
     // Set with room below what was measured when this was written: 45, 44, 665 ms, 8%.

@@ -13,7 +13,9 @@ function facts(page) {
   return page.evaluate(async () => {
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
     const text = (id) => document.querySelector(`#${id}`).textContent;
-    return Object.fromEntries(["so-far", "deviation", "markov-deviation", "error", "markov-error", "kind", "status"].map((id) => [id, text(id)]));
+    return Object.fromEntries(
+      ["so-far", "deviation", "markov-deviation", "error", "markov-error", "kind", "status"].map((id) => [id, text(id)]),
+    );
   });
 }
 
@@ -119,12 +121,17 @@ describe("the page of the sequences", () => {
       return frames;
     });
     for (const [soFar, deviation, markov, status] of frames) {
-      assert.equal(status, `After ${Number.parseInt(soFar, 10)} measurements the landing place is known to ${deviation}; without a destination to ${markov}.`);
+      assert.equal(
+        status,
+        `After ${Number.parseInt(soFar, 10)} measurements the landing place is known to ${deviation}; without a destination to ${markov}.`,
+      );
     }
     assert.ok(new Set(frames.map(([soFar]) => soFar)).size >= 5);
     assert.ok(new Set(frames.map((frame) => frame.at(-1))).size <= 3);
     await page.locator("#play").click();
-    await page.waitForFunction(() => document.querySelector("#announcement").textContent === document.querySelector("#status").textContent);
+    await page.waitForFunction(
+      () => document.querySelector("#announcement").textContent === document.querySelector("#status").textContent,
+    );
     assert.deepEqual(problems, []);
     await close();
   });
@@ -132,7 +139,12 @@ describe("the page of the sequences", () => {
   it("follows what is set, and goes back to the paper's values", async () => {
     const { page, problems, close } = await opened();
     const paper = await drawing(page);
-    for (const [name, value] of [["noise", "-2.5"], ["origin", "3.4"], ["destination", "3.4"], ["correlation", "0.9"]]) {
+    for (const [name, value] of [
+      ["noise", "-2.5"],
+      ["origin", "3.4"],
+      ["destination", "3.4"],
+      ["correlation", "0.9"],
+    ]) {
       const before = await drawing(page);
       await page.locator(`[name=${name}]`).fill(value);
       await facts(page);

@@ -32,7 +32,10 @@ export function hosted() {
 }
 
 /** The car's screen: ready once it shows probabilities. */
-const SCREEN = { path: "", ready: () => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed };
+const SCREEN = {
+  path: "",
+  ready: () => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed,
+};
 
 /** A page that is ready, with everything that it must not do collected in `problems`. */
 export async function open(browser, url, options = {}, { path, ready } = SCREEN) {
@@ -90,7 +93,13 @@ export function read(page) {
     }));
     const none = Number(document.querySelector("#none").style.getPropertyValue("--probability"));
     const top = icons.reduce((best, icon) => (icon.probability > best.probability ? icon : best));
-    return { icons, none, top, sum: icons.reduce((sum, icon) => sum + icon.probability, none), status: document.querySelector("#status").textContent };
+    return {
+      icons,
+      none,
+      top,
+      sum: icons.reduce((sum, icon) => sum + icon.probability, none),
+      status: document.querySelector("#status").textContent,
+    };
   });
 }
 
@@ -110,7 +119,8 @@ export function middles(page) {
  */
 export async function mouse(page) {
   const session = await page.context().newCDPSession(page);
-  const send = (type, timestamp, point, more = {}) => session.send("Input.dispatchMouseEvent", { type, timestamp, x: point.x, y: point.y, ...more });
+  const send = (type, timestamp, point, more = {}) =>
+    session.send("Input.dispatchMouseEvent", { type, timestamp, x: point.x, y: point.y, ...more });
   let last = 0;
   /** Never earlier than what has been sent. */
   const begin = () => (last = Math.max(last, Date.now() / 1000));

@@ -12,7 +12,10 @@ describe("touch", () => {
 
   /** What a press would have changed. */
   const presses = (page) =>
-    page.evaluate(() => ({ pressed: document.querySelectorAll("[data-pressed]").length, median: document.querySelector("#median").textContent }));
+    page.evaluate(() => ({
+      pressed: document.querySelectorAll("[data-pressed]").length,
+      median: document.querySelector("#median").textContent,
+    }));
 
   /** A finger from one place to another, in steps of 16 ms. */
   const line = (from, to, seconds) =>

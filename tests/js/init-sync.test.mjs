@@ -33,7 +33,8 @@ const ways = {
     "new (class Response { ok = true; status = 200; url = ''; async arrayBuffer() { return Uint8Array.from(bytes).buffer; } })()",
   ) });`,
   "slim with a URL of another realm": "await slim.init({ wasm: realm('new (class URL { href = address })()') });",
-  "slim with a module whose class is hidden": "await slim.init({ wasm: Object.setPrototypeOf(new WebAssembly.Module(bytes), null) });",
+  "slim with a module whose class is hidden":
+    "await slim.init({ wasm: Object.setPrototypeOf(new WebAssembly.Module(bytes), null) });",
   "init overtaken by initSync": `
     const slow = slim.init({ wasm: WebAssembly.compile(bytes) });
     whither.initSync({ module: bytes });
@@ -78,7 +79,12 @@ for (const [name, load] of Object.entries(ways)) {
 test("the generated code hands over no more values than are passed on", () => {
   for (const name of ["whither", "pointing", "study"]) {
     const code = readFileSync(new URL(`../../js/generated/${name}.js`, import.meta.url), "utf8");
-    const counts = [...code.matchAll(/\bwasm\.\w+\(([^()]*)\)/g)].map(([, values]) => values.split(",").filter((value) => value.trim() !== "").length);
-    assert.ok(counts.length > 0 && Math.max(...counts) <= 6, `${name}: ${Math.max(...counts)} values; js/core/loading/instantiate.ts passes on 6`);
+    const counts = [...code.matchAll(/\bwasm\.\w+\(([^()]*)\)/g)].map(
+      ([, values]) => values.split(",").filter((value) => value.trim() !== "").length,
+    );
+    assert.ok(
+      counts.length > 0 && Math.max(...counts) <= 6,
+      `${name}: ${Math.max(...counts)} values; js/core/loading/instantiate.ts passes on 6`,
+    );
   }
 });

@@ -105,7 +105,11 @@ test("the error for truncated or damaged bytes names them, and neither a policy 
     });
     assert.throws(() => initSync({ module: wasm }), { code: "wasm-unavailable", message: /damaged or cut off/ });
   }
-  await fails(slim.init({ wasm: cases[0] }), "wasm-unavailable", "the module is not this version's whither.wasm: it has no __wbindgen_start");
+  await fails(
+    slim.init({ wasm: cases[0] }),
+    "wasm-unavailable",
+    "the module is not this version's whither.wasm: it has no __wbindgen_start",
+  );
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   const detached = "the given bytes cannot be read: Cannot perform Construct on a detached ArrayBuffer";
@@ -178,7 +182,7 @@ test("without DecompressionStream", async () => {
   const { DecompressionStream: present } = globalThis;
   globalThis.DecompressionStream = undefined;
   try {
-    const message = 'DecompressionStream does not exist here: use init({ wasm }) with whither/whither.wasm';
+    const message = "DecompressionStream does not exist here: use init({ wasm }) with whither/whither.wasm";
     await fails(init(), "wasm-unavailable", message);
   } finally {
     globalThis.DecompressionStream = present;

@@ -99,7 +99,12 @@ test("the noise of one observation", () => {
   const [exact, vague] = [moved(small()), moved(small())];
   const next = [2.32, [900, 300]];
   exact.observe(...next);
-  vague.observe(...next, { noise: [[1e6, 0], [0, 1e6]] });
+  vague.observe(...next, {
+    noise: [
+      [1e6, 0],
+      [0, 1e6],
+    ],
+  });
   const [near, far] = [vague, exact].map((predictor) => predictor.state().mean[0]);
   assert.ok(near < 660 && far > near + 20, `${near} ${far}`);
 });
@@ -148,7 +153,10 @@ for (const [name, scenario] of Object.entries({
 }
 
 test("a snapshot restores the pointing model to the bit, and one without observations", () => {
-  const targets = [{ id: "a", x: 0, y: 0, width: 50, height: 50 }, { id: "right", x: 900, y: 300, width: 50, height: 50 }];
+  const targets = [
+    { id: "a", x: 0, y: 0, width: 50, height: 50 },
+    { id: "right", x: 900, y: 300, width: 50, height: 50 },
+  ];
   const predictor = moved(pointerScenario(targets));
   const restored = Predictor.restore(JSON.parse(JSON.stringify(predictor.snapshot())));
   for (const one of [predictor, restored]) one.observe(2.4, [640, 301]);

@@ -15,13 +15,23 @@ const parameters = {
   timeStep: 1,
   steps: 2,
   pinnedMean: [0, 10],
-  pinnedCovariance: [[1, 0], [0, 4]],
+  pinnedCovariance: [
+    [1, 0],
+    [0, 4],
+  ],
   observation: { noise: 0.2 },
 };
 const predictor = new Predictor(small());
 const pointer = new pointing.Predictor(pointing.pointerScenario([target]));
 const sequence = new ConditionallyMarkovSequence(parameters);
-const track = { targets: [[0, 0, 1, 1]], target: 0, samples: [[0, 5, 5], [1, 0, 0]] };
+const track = {
+  targets: [[0, 0, 1, 1]],
+  target: 0,
+  samples: [
+    [0, 5, 5],
+    [1, 0, 0],
+  ],
+};
 let time = 0;
 
 /** Each function: how it is called with options, what it needs of them, and the keys that it reads. */
@@ -35,7 +45,11 @@ const functions = {
   "observe with a missing axis": { call: (options) => predictor.observe(++time, [1, null], options), keys: ["noise"] },
   "observe of whither/pointing": { call: (options) => pointer.observe(++time, [1, 2], options), keys: ["noise"] },
   pointerScenario: { call: (options) => pointerScenario([target], options), keys: ["none"], prefix: "options." },
-  "pointerScenario of whither/pointing": { call: (options) => pointing.pointerScenario([target], options), keys: ["none"], prefix: "options." },
+  "pointerScenario of whither/pointing": {
+    call: (options) => pointing.pointerScenario([target], options),
+    keys: ["none"],
+    prefix: "options.",
+  },
   sample: { call: (options) => sequence.sample(options), keys: ["seed", "count"], needs: { seed: 1, count: 1 } },
   fit: {
     call: (options) => fit([track], { ...small(), destinations: undefined }, options),
@@ -96,7 +110,11 @@ for (const [name, { call, keys, needs = {}, prefix = "", fine }] of Object.entri
   });
 
   test(`${name} takes no options, and keys that are undefined`, async () => {
-    const gone = { ...needs, ...Object.fromEntries(keys.filter((key) => !(key in needs)).map((key) => [key, undefined])), signal: undefined };
+    const gone = {
+      ...needs,
+      ...Object.fromEntries(keys.filter((key) => !(key in needs)).map((key) => [key, undefined])),
+      signal: undefined,
+    };
     for (const options of [gone, ...(Object.keys(needs).length > 0 ? [needs] : [undefined, null, {}, Object.create(null)])]) {
       const error = await outcome(call, options);
       assert.equal(error?.code, fine, `${error?.message}`);

@@ -88,8 +88,7 @@ test("what it does not have is refused by name", () => {
   const arrival = { type: "uniform", from: 1, to: 2 };
   refuses(make({ arrival }), "unknown-key", "arrival", 'cannot be combined with the method "pointing", got an object');
   const [first] = scenario.destinations;
-  const message =
-    'unknown key "arrival", expected one of "id", "mean", "covariance", "center", "size", "endVelocity", "prior"';
+  const message = 'unknown key "arrival", expected one of "id", "mean", "covariance", "center", "size", "endVelocity", "prior"';
   refuses(make({ destinations: [{ ...first, arrival }] }), "unknown-key", "destinations[0].arrival", message);
   assert.equal(pointing.ConditionallyMarkovSequence, undefined);
 });

@@ -25,7 +25,13 @@ function attempt(what, call) {
 
 const pointing = pointerScenario([{ id: "any", x: 0, y: 0, width: 1, height: 1 }]);
 const { destinations } = given;
-const noiseOfOne = given.method === "pointing" ? [2, 1] : [[2, 1], [1, 2]];
+const noiseOfOne =
+  given.method === "pointing"
+    ? [2, 1]
+    : [
+        [2, 1],
+        [1, 2],
+      ];
 const scenario = given.method === "pointing" ? { ...pointing, destinations } : given;
 
 /** Fills the memory: predictors in mid-movement, large ones first, of which some are freed again to leave a little room. */
@@ -69,7 +75,9 @@ for (const share of [1, 0.95, 0.8, 0.5, 0.2]) {
   };
   const times = [0, 0.1, 0.2, 1e5];
   for (const [k, time] of times.entries()) {
-    const moved = attempt(`observe ${k}`, () => predictor.observe(time, [300 + k, k === 2 ? null : 200], k === 2 ? { noise: noiseOfOne } : undefined));
+    const moved = attempt(`observe ${k}`, () =>
+      predictor.observe(time, [300 + k, k === 2 ? null : 200], k === 2 ? { noise: noiseOfOne } : undefined),
+    );
     if (moved !== null) askAll(`after ${k}`);
   }
   const changes = {

@@ -10,7 +10,14 @@ const place = (i) => [i % 100, Math.floor(i / 100)];
 const kinds = {
   alike: (i) => ({ id: `d${i}`, center: place(i), size: [9, 9] }),
   sizes: (i) => ({ id: `d${i}`, center: place(i), size: [9 + i / 7, 9] }),
-  covariances: (i) => ({ id: `d${i}`, mean: place(i), covariance: [[20 + i, i % 7], [i % 7, 30 + i]] }),
+  covariances: (i) => ({
+    id: `d${i}`,
+    mean: place(i),
+    covariance: [
+      [20 + i, i % 7],
+      [i % 7, 30 + i],
+    ],
+  }),
   times: (i) => ({ id: `d${i}`, center: place(i), size: [9, 9], arrival: { type: "uniform", from: 1 + i / 1e6, to: 4 } }),
   velocities: (i) => ({ id: `d${i}`, center: place(i), size: [9 + i, 9], endVelocity: 100 + i }),
 };
@@ -95,7 +102,9 @@ test("sequences, as many as there is room for, and what is drawn of them", async
     eval: true,
     workerData: limited(100),
   });
-  const { drawn, codes, again, goes } = await new Promise((resolve, reject) => worker.once("message", resolve).once("error", reject));
+  const { drawn, codes, again, goes } = await new Promise((resolve, reject) =>
+    worker.once("message", resolve).once("error", reject),
+  );
   assert.deepEqual(codes, ["too-large: this may take # MB of memory, more than is left: free() what is not needed any more"]);
   assert.deepEqual([drawn.at(-1), again, goes], [null, 5, true], `${drawn}`);
 });
@@ -110,7 +119,14 @@ test("lists and texts beyond all bounds are refused before they are copied", asy
   refuses(() => used.setDestinations(many), "too-large", "destinations", "must have no more than 1000000 items, has 1000001");
   const icon = { id: "a", x: 0, y: 0, width: 9, height: 9 };
   refuses(() => pointerScenario(many.fill(icon)), "too-large", "targets", "must have no more than 1000000 items, has 1000001");
-  const sequence = { motion: small().motion, timeStep: 1, steps: 1e9, pinnedMean: [], pinnedCovariance: [], observation: { noise: 1 } };
+  const sequence = {
+    motion: small().motion,
+    timeStep: 1,
+    steps: 1e9,
+    pinnedMean: [],
+    pinnedCovariance: [],
+    observation: { noise: 1 },
+  };
   assert.throws(() => new ConditionallyMarkovSequence(sequence), { code: "too-large" });
   for (const one of [used, untouched]) one.observe(1, [420, 300]);
   same(used.probabilities(), untouched.probabilities(), "it goes on");

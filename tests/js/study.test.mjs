@@ -28,7 +28,15 @@ function walks(count) {
       samples.push([time + 1, x + 3 * normal(), y + 3 * normal()]);
     }
     if (!inside(samples.at(-1))) continue;
-    tracks.push({ user: `user ${tracks.length % 4}`, targets: [[30, 0, 40, 40], [-30, 0, 40, 40]], target: 0, samples });
+    tracks.push({
+      user: `user ${tracks.length % 4}`,
+      targets: [
+        [30, 0, 40, 40],
+        [-30, 0, 40, 40],
+      ],
+      target: 0,
+      samples,
+    });
   }
   return tracks;
 }
@@ -59,12 +67,19 @@ test("maximum evidence finds the noise that moved it, before any init", async ()
   assert.deepEqual({ ...fitted.scenario, motion: { ...fitted.scenario.motion, noise: 9 } }, walk, "all else is as it was");
   assert.ok(fitted.leftOut.after < fitted.leftOut.before);
   assert.ok(states.length > 4 && states.every(({ share, loss }) => share > 0 && share <= 1 && Number.isFinite(loss)));
-  assert.ok(states.every(({ share }, k) => k === 0 || share >= states[k - 1].share), "it never goes back");
+  assert.ok(
+    states.every(({ share }, k) => k === 0 || share >= states[k - 1].share),
+    "it never goes back",
+  );
 });
 
 test("the pointer's scenario is learnt from, and what comes out predicts", async () => {
   await init();
-  const places = [[100, 100], [500, 80], [300, 500]];
+  const places = [
+    [100, 100],
+    [500, 80],
+    [300, 500],
+  ];
   const { normal } = source(7);
   const tracks = Array.from({ length: 20 }, (_, k) => {
     const [x, y] = places[k % 3];
@@ -98,15 +113,91 @@ const broken = (changes) => [good, { ...good, ...changes }];
 const cases = [
   ["no tracks", undefined, walk, {}, "missing-key", "tracks", 'missing key "tracks"'],
   ["no scenario", [good], undefined, {}, "missing-key", "scenario", 'missing key "scenario"'],
-  ["an unknown option", [good], walk, { constant: [] }, "unknown-key", "constant", 'unknown key "constant", expected one of "constants", "evaluations", "destination", "progress"'],
-  ["an unknown key of a track", broken({ speed: 1 }), walk, {}, "unknown-key", "tracks[1].speed", 'unknown key "speed", expected one of "id", "user", "targets", "target", "samples"'],
-  ["a target that is not there", broken({ target: 2 }), walk, {}, "out-of-range", "tracks[1].target", "must be the place of one of the 2 targets, counted from 0, got 2"],
-  ["time that runs back", broken({ samples: [[1, 0, 0], [0.5, 0, 0]] }), walk, {}, "time-not-increasing", "tracks[1].samples[1]", "must not be before the sample at 1, got [0.5, 0, 0]"],
+  [
+    "an unknown option",
+    [good],
+    walk,
+    { constant: [] },
+    "unknown-key",
+    "constant",
+    'unknown key "constant", expected one of "constants", "evaluations", "destination", "progress"',
+  ],
+  [
+    "an unknown key of a track",
+    broken({ speed: 1 }),
+    walk,
+    {},
+    "unknown-key",
+    "tracks[1].speed",
+    'unknown key "speed", expected one of "id", "user", "targets", "target", "samples"',
+  ],
+  [
+    "a target that is not there",
+    broken({ target: 2 }),
+    walk,
+    {},
+    "out-of-range",
+    "tracks[1].target",
+    "must be the place of one of the 2 targets, counted from 0, got 2",
+  ],
+  [
+    "time that runs back",
+    broken({
+      samples: [
+        [1, 0, 0],
+        [0.5, 0, 0],
+      ],
+    }),
+    walk,
+    {},
+    "time-not-increasing",
+    "tracks[1].samples[1]",
+    "must not be before the sample at 1, got [0.5, 0, 0]",
+  ],
   ["no samples", broken({ samples: [] }), walk, {}, "out-of-range", "tracks[1].samples", "must have at least one sample, got []"],
-  ["a track in space", broken({ targets: [[0, 0, 0, 9]], samples: [[0, 50, 0, 0], [1, 0, 0, 0]], target: 0 }), walk, {}, "wrong-length", "tracks[1].targets[0].center", "must have 2 numbers, has 3, got [0, 0, 0]"],
-  ["a scenario that is wrong", [good], { ...walk, motion: { ...walk.motion, noise: -1 } }, {}, "out-of-range", "motion.noise", "must be greater than 0, got -1"],
-  ["no such constant", walks(20), walk, { constants: ["motion.speed"] }, "out-of-range", "constants", '"motion.speed" must be a number above 0 to be learnt, got nothing'],
-  ["no evaluation", [good], walk, { evaluations: 0 }, "out-of-range", "evaluations", "must be an integer from 1 to 100000, got 0"],
+  [
+    "a track in space",
+    broken({
+      targets: [[0, 0, 0, 9]],
+      samples: [
+        [0, 50, 0, 0],
+        [1, 0, 0, 0],
+      ],
+      target: 0,
+    }),
+    walk,
+    {},
+    "wrong-length",
+    "tracks[1].targets[0].center",
+    "must have 2 numbers, has 3, got [0, 0, 0]",
+  ],
+  [
+    "a scenario that is wrong",
+    [good],
+    { ...walk, motion: { ...walk.motion, noise: -1 } },
+    {},
+    "out-of-range",
+    "motion.noise",
+    "must be greater than 0, got -1",
+  ],
+  [
+    "no such constant",
+    walks(20),
+    walk,
+    { constants: ["motion.speed"] },
+    "out-of-range",
+    "constants",
+    '"motion.speed" must be a number above 0 to be learnt, got nothing',
+  ],
+  [
+    "no evaluation",
+    [good],
+    walk,
+    { evaluations: 0 },
+    "out-of-range",
+    "evaluations",
+    "must be an integer from 1 to 100000, got 0",
+  ],
   ["progress that is no function", [good], walk, { progress: 3 }, "wrong-type", "progress", "must be a function"],
 ];
 

@@ -8,7 +8,9 @@ const main = `import { init, Predictor, WhitherError } from "./node_modules/whit
 window.outcome = predict({ init, Predictor }).catch((error) => (
   { whither: error instanceof WhitherError, code: error.code, message: error.message }
 ));`;
-const slim = (wasm) => `import { init, Predictor, WhitherError } from "./node_modules/whither/dist/slim.js"; import { predict } from "./predict.js";
+const slim = (
+  wasm,
+) => `import { init, Predictor, WhitherError } from "./node_modules/whither/dist/slim.js"; import { predict } from "./predict.js";
 window.outcome = predict({ init, Predictor }, { wasm: ${wasm} }).catch((error) => (
   { whither: error instanceof WhitherError, code: error.code, message: error.message }
 ));`;

@@ -54,10 +54,16 @@ test("bundled without configuration", async (t) => {
   }
 
   await t.test("whither/pointing alone brings its own WebAssembly and no other", async () => {
-    write(folder, "pointer.js", 'import { init, Predictor } from "whither/pointing"; window.outcome = init().then(() => Predictor);');
+    write(
+      folder,
+      "pointer.js",
+      'import { init, Predictor } from "whither/pointing"; window.outcome = init().then(() => Predictor);',
+    );
     const options = { bundle: true, minify: true, format: "esm", outdir: "site", metafile: true };
     const { metafile } = await esbuild.build({ absWorkingDir: folder, entryPoints: ["pointer.js"], ...options });
-    const files = Object.keys(metafile.inputs).filter((name) => name.includes("whither/dist/")).map((name) => basename(name));
+    const files = Object.keys(metafile.inputs)
+      .filter((name) => name.includes("whither/dist/"))
+      .map((name) => basename(name));
     assert.deepEqual(files.sort(), ["error.js", "pointing-bytes.js", "pointing.js"]);
   });
 

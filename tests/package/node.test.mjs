@@ -55,7 +55,18 @@ test("in Node", async (t) => {
 
   await t.test("an import does nothing: no request, no compilation, nothing of the platform is used or made", async () => {
     // The language itself may be used: classes are made, and an error is one that extends another.
-    const language = ["Object", "Function", "Array", "String", "Symbol", "Error", "Promise", "Reflect", "globalThis", "undefined"];
+    const language = [
+      "Object",
+      "Function",
+      "Array",
+      "String",
+      "Symbol",
+      "Error",
+      "Promise",
+      "Reflect",
+      "globalThis",
+      "undefined",
+    ];
     const text = `const touched = [];
       const names = Object.getOwnPropertyNames(globalThis).filter((name) => !${JSON.stringify(language)}.includes(name));
       const present = new Map(names.map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)]));
@@ -92,20 +103,27 @@ test("in Node", async (t) => {
     assert.equal(code, 0, output);
     const reported = JSON.parse(output.trim().split("\n").at(-1)); // V8 warns of the flag
     const expected = "WhitherError,wasm-unavailable,WebAssembly does not exist here";
-    assert.deepEqual(reported, Array.from({ length: 13 }, () => expected));
+    assert.deepEqual(
+      reported,
+      Array.from({ length: 13 }, () => expected),
+    );
   });
 
   await t.test("an uncaught error prints a few lines, and with source maps the place in js/", async () => {
     const uses = {
-      "by Rust": 'await init(); new Predictor({ motion: 1 });',
-      "by TypeScript": 'await init(); new Predictor(() => 1);',
+      "by Rust": "await init(); new Predictor({ motion: 1 });",
+      "by TypeScript": "await init(); new Predictor(() => 1);",
       "before init": "new Predictor({});",
       "by a promise": "init(5);",
-      "by another": 'await init(); const p = new Predictor(pointerScenario([{ id: "a", x: 0, y: 0, width: 1, height: 1 }])); p.free(); p.free();',
+      "by another":
+        'await init(); const p = new Predictor(pointerScenario([{ id: "a", x: 0, y: 0, width: 1, height: 1 }])); p.free(); p.free();',
     };
     for (const entry of ["whither", "whither/pointing", "whither/slim"]) {
       for (const [what, use] of Object.entries(uses)) {
-        const wasm = entry === "whither/slim" ? use.replace("init()", 'init({ wasm: (await import("node:fs")).readFileSync("site/whither.wasm") })') : use;
+        const wasm =
+          entry === "whither/slim"
+            ? use.replace("init()", 'init({ wasm: (await import("node:fs")).readFileSync("site/whither.wasm") })')
+            : use;
         write(folder, "uncaught.mjs", `import { init, Predictor, pointerScenario } from "${entry}"; ${wasm}`);
         for (const flags of [[], ["--enable-source-maps"]]) {
           const { code, output } = await capture("node", [...flags, "uncaught.mjs"], { cwd: folder });
@@ -195,7 +213,11 @@ test("in Node", async (t) => {
         external: ["node:fs"],
         plugins: [{ name: "compiled", setup: compiled }],
       });
-      assert.deepEqual(Object.keys(metafile.inputs).filter((name) => name.includes("bytes")), [], `${entry} brings no bytes`);
+      assert.deepEqual(
+        Object.keys(metafile.inputs).filter((name) => name.includes("bytes")),
+        [],
+        `${entry} brings no bytes`,
+      );
       // Node compiles a parser of its own when Response is first named; after that, nothing may be compiled.
       const text = `void globalThis.Response; const forbid = () => { throw new Error("not allowed here"); };
         WebAssembly.compile = WebAssembly.compileStreaming = forbid;\n`;

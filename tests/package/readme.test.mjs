@@ -28,7 +28,12 @@ test("the README's code", async (t) => {
   const projects = {
     "strict and no more": {},
     "with the fewest libraries": { lib: ["ES2022", "DOM"] },
-    "with every check": { noUncheckedIndexedAccess: true, noImplicitReturns: true, noUnusedLocals: true, noUnusedParameters: true },
+    "with every check": {
+      noUncheckedIndexedAccess: true,
+      noImplicitReturns: true,
+      noUnusedLocals: true,
+      noUnusedParameters: true,
+    },
   };
   for (const [name, more] of Object.entries(projects)) {
     await t.test(`on a page compiles as it is pasted into a strict TypeScript project, ${name}`, async () => {
@@ -180,7 +185,11 @@ async function onPages(folder, entry) {
       await open(() => {
         const { get } = Object.getOwnPropertyDescriptor(Event.prototype, "timeStamp");
         window.step = 0;
-        Object.defineProperty(Event.prototype, "timeStamp", { get() { return get.call(this) + window.step; } });
+        Object.defineProperty(Event.prototype, "timeStamp", {
+          get() {
+            return get.call(this) + window.step;
+          },
+        });
       });
       await move(start, [148, 348], 0.6);
       await tab.evaluate(() => (window.step = -1000));
@@ -205,7 +214,11 @@ async function onPages(folder, entry) {
     it("lights at .8 and goes out below .5", async () => {
       await open();
       // past the last icon on the way up, and back: sure at first, and then less and less
-      const shown = [...(await move(start, last, 0.7)), ...(await move([823, 424], [700, 600])), ...(await move([700, 600], [500, 420]))];
+      const shown = [
+        ...(await move(start, last, 0.7)),
+        ...(await move([823, 424], [700, 600])),
+        ...(await move([700, 600], [500, 420])),
+      ];
       let lit = [];
       const counted = { kept: 0, waited: 0 };
       for (const { best, lit: now } of shown) {

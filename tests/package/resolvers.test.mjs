@@ -27,12 +27,18 @@ test("the package's names", async (t) => {
     const { entrypoints, problems } = await checkPackage(createPackageFromTarballData(readFileSync(tarball)));
     const names = [".", "./slim", "./pointing", "./study", "./whither.wasm", "./pointing.wasm", "./package.json"];
     assert.deepEqual(Object.keys(entrypoints), names);
-    assert.deepEqual(problems.filter((problem) => !unavoidable(problem)), []);
+    assert.deepEqual(
+      problems.filter((problem) => !unavoidable(problem)),
+      [],
+    );
   });
 
   await t.test("are sound (publint)", async () => {
     const { messages, pkg } = await publint({ pkgDir: join(folder, "node_modules/whither"), pack: false, strict: true });
-    assert.deepEqual(messages.map((message) => formatMessage(message, pkg)), []);
+    assert.deepEqual(
+      messages.map((message) => formatMessage(message, pkg)),
+      [],
+    );
   });
 
   await t.test("are found without exports, and all that they name predicts", async () => {

@@ -97,7 +97,10 @@ export async function inBrowser(browser, folder, { headers, expected = null } = 
     await tab.goto(server.url);
     await tab.waitForFunction(() => window.outcome !== undefined);
     const outcome = await tab.evaluate(() => window.outcome);
-    assert.deepEqual(errors.filter((text) => expected === null || !expected.test(text)), []);
+    assert.deepEqual(
+      errors.filter((text) => expected === null || !expected.test(text)),
+      [],
+    );
     return outcome;
   } finally {
     await tab.close();

@@ -55,12 +55,22 @@ test("the shipped files", async (t) => {
 
   await t.test("have short lines, each with its place in js/, but for the bytes", () => {
     for (const name of scripts.filter((name) => name.startsWith("dist/") && !name.endsWith("bytes.js"))) {
-      const longest = Math.max(...read(name).split("\n").map((line) => line.length));
+      const longest = Math.max(
+        ...read(name)
+          .split("\n")
+          .map((line) => line.length),
+      );
       assert.ok(longest < 600, `${name} has a line of ${longest}`);
       const { sources, sourcesContent } = JSON.parse(read(`${name}.map`));
       assert.ok(sources.length > 0 && sources.length === sourcesContent.length, name);
-      assert.ok(sources.every((source) => /^\.\.\/js\/[\w/.-]+$/.test(source)), `${name}: ${sources}`);
-      assert.ok(sourcesContent.every((text) => text.length > 0), name);
+      assert.ok(
+        sources.every((source) => /^\.\.\/js\/[\w/.-]+$/.test(source)),
+        `${name}: ${sources}`,
+      );
+      assert.ok(
+        sourcesContent.every((text) => text.length > 0),
+        name,
+      );
     }
   });
 });

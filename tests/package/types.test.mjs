@@ -104,7 +104,8 @@ test("the declarations compile", async (t) => {
   }
 
   await t.test("where the library has WebAssembly, an imported module is one", async () => {
-    const text = 'import module from "whither/whither.wasm"; export const names: string[] = WebAssembly.Module.exports(module).map(({ name }) => name);';
+    const text =
+      'import module from "whither/whither.wasm"; export const names: string[] = WebAssembly.Module.exports(module).map(({ name }) => name);';
     await compiles({ "module.ts": text }, users["a bundler and the DOM"]);
   });
 

@@ -148,7 +148,10 @@ export class Demonstration {
     if (!start || !end) return;
     const hand = reach(start, end, Math.min(end.width, end.height), seeded(5));
     const pressed = hand.duration + 0.1;
-    const samples = Array.from({ length: Math.floor(hand.duration * 100) }, (_, step) => ({ time: step / 100, ...hand.at(step / 100) }));
+    const samples = Array.from({ length: Math.floor(hand.duration * 100) }, (_, step) => ({
+      time: step / 100,
+      ...hand.at(step / 100),
+    }));
     this.#learn(EXAMPLE, samples);
     const judged = this.#track(EXAMPLE).press(pressed, to);
     this.forget(EXAMPLE);

@@ -52,10 +52,13 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   let places: Sample[] = [];
 
   const wait = () => {
-    timer = window.setTimeout(() => {
-      if (performance.now() < due || !stage.visible()) wait();
-      else appear();
-    }, Math.max(100, due - performance.now()));
+    timer = window.setTimeout(
+      () => {
+        if (performance.now() < due || !stage.visible()) wait();
+        else appear();
+      },
+      Math.max(100, due - performance.now()),
+    );
   };
 
   const appear = () => {
@@ -85,7 +88,9 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   const play = (set: number) => {
     const targets = stage.targets();
     const from = places.at(-1) ?? { x: (targets[0]?.x ?? 0) - 30, y: targets.at(-1)?.y ?? 0 };
-    const far = targets.map((_, index) => index).filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
+    const far = targets
+      .map((_, index) => index)
+      .filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
     const index = far[Math.floor(random() * far.length)] ?? 0;
     const target = targets[index];
     if (!target || !stage.visible()) {

@@ -50,8 +50,20 @@ async function start(): Promise<void> {
     fan,
     chart,
     status,
-    probabilityList: new ProbabilityList({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") }, labels),
-    numbers: new Numbers({ lead: part("lead"), median: part("median"), right: part("early-right"), wrong: part("early-wrong"), presses: part("presses") }, labels),
+    probabilityList: new ProbabilityList(
+      { rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") },
+      labels,
+    ),
+    numbers: new Numbers(
+      {
+        lead: part("lead"),
+        median: part("median"),
+        right: part("early-right"),
+        wrong: part("early-wrong"),
+        presses: part("presses"),
+      },
+      labels,
+    ),
   });
 
   controls(part<HTMLFormElement>("controls"), (settings) => {

@@ -35,7 +35,13 @@ export interface Settings {
   readonly waypoint: Place | null;
 }
 
-export const PAPER: Settings = { noise: 0.01, origin: Math.sqrt(1000), destination: Math.sqrt(1000), correlation: 0, waypoint: null };
+export const PAPER: Settings = {
+  noise: 0.01,
+  origin: Math.sqrt(1000),
+  destination: Math.sqrt(1000),
+  correlation: 0,
+  waypoint: null,
+};
 
 /** The places of one flight, step by step. */
 export type Flight = readonly Place[];

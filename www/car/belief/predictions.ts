@@ -121,5 +121,7 @@ function timeToGo(predictor: Predictor, now: number): TimeToGo | null {
 }
 
 function sameBox(one: PointerTarget, other: PointerTarget | undefined): boolean {
-  return other !== undefined && one.x === other.x && one.y === other.y && one.width === other.width && one.height === other.height;
+  return (
+    other !== undefined && one.x === other.x && one.y === other.y && one.width === other.width && one.height === other.height
+  );
 }

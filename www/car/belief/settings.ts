@@ -52,7 +52,12 @@ export function scenarioOf(targets: readonly PointerTarget[], settings: Settings
     quadrature: { rule: "simpson", points: settings.points },
     // Known up to a factor only, its likelihoods cannot be compared with that of "none of them".
     none: settings.method === "singleFilterApproximate" ? 0 : NONE,
-    destinations: targets.map(({ id, x, y, width, height }) => ({ id, center: [x, y], size: [width, height], endVelocity: END_SPEED })),
+    destinations: targets.map(({ id, x, y, width, height }) => ({
+      id,
+      center: [x, y],
+      size: [width, height],
+      endVelocity: END_SPEED,
+    })),
   };
 }
 
@@ -70,5 +75,7 @@ function pointing(targets: readonly PointerTarget[], points: number, factor: num
 }
 
 function louder(motion: Motion, factor: number): Motion {
-  return motion.type === "constantVelocity" && typeof motion.noise === "number" ? { ...motion, noise: motion.noise * factor } : motion;
+  return motion.type === "constantVelocity" && typeof motion.noise === "number"
+    ? { ...motion, noise: motion.noise * factor }
+    : motion;
 }

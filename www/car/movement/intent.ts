@@ -84,7 +84,10 @@ export class IntentRule {
     if (sure && best !== barred) {
       if (best !== this.#current) this.#intents.push({ target: best, time });
       this.#current = best;
-    } else if (this.#current !== null && ((probabilities[this.#current] ?? 0) < releaseOf(threshold) || this.#current === barred)) {
+    } else if (
+      this.#current !== null &&
+      ((probabilities[this.#current] ?? 0) < releaseOf(threshold) || this.#current === barred)
+    ) {
       this.#current = null;
     }
   }

@@ -14,8 +14,22 @@ function movements(samples: readonly Sample[]): number {
 }
 
 /** A hand at a steady pace to the right, in px/s, heard at a rate. */
-function steady({ from = 0, start = 0, seconds, speed, rate }: { from?: number; start?: number; seconds: number; speed: number; rate: number }): Sample[] {
-  return Array.from({ length: Math.floor(seconds * rate) + 1 }, (_, step) => at(start + step / rate, from + (speed * step) / rate));
+function steady({
+  from = 0,
+  start = 0,
+  seconds,
+  speed,
+  rate,
+}: {
+  from?: number;
+  start?: number;
+  seconds: number;
+  speed: number;
+  rate: number;
+}): Sample[] {
+  return Array.from({ length: Math.floor(seconds * rate) + 1 }, (_, step) =>
+    at(start + step / rate, from + (speed * step) / rate),
+  );
 }
 
 /** A movement from 0 to 400 px in .4 s, at 100 Hz. */
@@ -24,20 +38,40 @@ const THERE = steady({ seconds: 0.4, speed: 1000, rate: 100 });
 describe("segmenter", () => {
   it("begins a movement with its onset, not with the sample that gave it away", () => {
     const cuts = feed(new Segmenter(), [at(0, 0), at(0.016, 2), at(0.032, 7), at(0.048, 15), at(0.064, 25)]);
-    assert.deepEqual(cuts.map((cut) => cut.samples.length), [0, 0, 0, 4, 1]);
-    assert.deepEqual(cuts.map((cut) => cut.fresh), [false, false, false, true, false]);
+    assert.deepEqual(
+      cuts.map((cut) => cut.samples.length),
+      [0, 0, 0, 4, 1],
+    );
+    assert.deepEqual(
+      cuts.map((cut) => cut.fresh),
+      [false, false, false, true, false],
+    );
   });
 
   it("feeds no sample twice, and none that was heard late", () => {
     const segmenter = new Segmenter();
     feed(segmenter, [at(0, 0), at(0.01, 50)]);
     const cuts = feed(segmenter, [at(0.01, 50), at(0.005, 40), at(0.01, 51)]);
-    assert.deepEqual(cuts.map((cut) => cut.samples.length), [0, 0, 1]);
+    assert.deepEqual(
+      cuts.map((cut) => cut.samples.length),
+      [0, 0, 1],
+    );
   });
 
   it("ends a movement at a rest of more than 300 ms, and at none that is shorter", () => {
-    for (const [rest, count] of [[0.12, 1], [0.2, 1], [0.28, 1], [0.35, 2], [0.8, 2], [30, 2]] as const) {
-      assert.equal(movements([...THERE, ...steady({ from: 401, start: 0.4 + rest, seconds: 0.3, speed: 600, rate: 100 })]), count, `${rest} s`);
+    for (const [rest, count] of [
+      [0.12, 1],
+      [0.2, 1],
+      [0.28, 1],
+      [0.35, 2],
+      [0.8, 2],
+      [30, 2],
+    ] as const) {
+      assert.equal(
+        movements([...THERE, ...steady({ from: 401, start: 0.4 + rest, seconds: 0.3, speed: 600, rate: 100 })]),
+        count,
+        `${rest} s`,
+      );
     }
   });
 
@@ -46,7 +80,10 @@ describe("segmenter", () => {
     feed(segmenter, THERE);
     const next = steady({ from: 401, start: 1.4, seconds: 0.1, speed: 600, rate: 100 });
     const cuts = feed(segmenter, next);
-    assert.deepEqual(cuts.flatMap((cut) => cut.samples), next);
+    assert.deepEqual(
+      cuts.flatMap((cut) => cut.samples),
+      next,
+    );
     assert.deepEqual(cuts.find((cut) => cut.samples.length > 0)?.fresh, true);
   });
 
@@ -60,7 +97,12 @@ describe("segmenter", () => {
 
   it("takes a late event for no rest wherever the pointer has turned meanwhile", () => {
     const before = steady({ seconds: 0.2, speed: 800, rate: 100 });
-    for (const [x, y] of [[160, 300], [-140, 0], [60, -200]] as const) assert.equal(movements([...before, at(0.6, x, y), at(0.61, x, y + 5)]), 1, `${x}, ${y}`);
+    for (const [x, y] of [
+      [160, 300],
+      [-140, 0],
+      [60, -200],
+    ] as const)
+      assert.equal(movements([...before, at(0.6, x, y), at(0.61, x, y + 5)]), 1, `${x}, ${y}`);
   });
 
   it("follows a remote desktop, with an event every 109 ms", () => {
@@ -105,7 +147,10 @@ describe("segmenter", () => {
     assert.equal(cuts.filter((cut) => cut.fresh).length, 1);
     const times = cuts.flatMap((cut) => cut.samples.map((sample) => sample.time));
     assert.equal(times[0], 20);
-    assert.deepEqual(times, times.toSorted((a, b) => a - b));
+    assert.deepEqual(
+      times,
+      times.toSorted((a, b) => a - b),
+    );
   });
 
   it("starts afresh after a press", () => {

@@ -21,8 +21,14 @@ export class Tally {
   summary(): Summary | null {
     const presses = this.#outcomes.length;
     if (presses === 0) return null;
-    const share = (verdict: Outcome["verdict"]) => this.#outcomes.filter((outcome) => outcome.verdict === verdict).length / presses;
-    return { presses, medianLead: median(this.#outcomes.map((outcome) => outcome.lead)), right: share("right"), wrong: share("wrong") };
+    const share = (verdict: Outcome["verdict"]) =>
+      this.#outcomes.filter((outcome) => outcome.verdict === verdict).length / presses;
+    return {
+      presses,
+      medianLead: median(this.#outcomes.map((outcome) => outcome.lead)),
+      right: share("right"),
+      wrong: share("wrong"),
+    };
   }
 }
 

@@ -17,8 +17,20 @@ describe("judge", () => {
   });
 
   it("finds it wrong where another was ringed, and still knows since when it was right", () => {
-    assert.deepEqual(judge(rings([0, 1], [1, 1.25]), 1, 1.5), { chosen: 1, pressed: 1.5, verdict: "wrong", mistaken: 0, lead: 0.25 });
-    assert.deepEqual(judge(rings([1, 1], [0, 1.25]), 1, 1.5), { chosen: 1, pressed: 1.5, verdict: "wrong", mistaken: 0, lead: 0 });
+    assert.deepEqual(judge(rings([0, 1], [1, 1.25]), 1, 1.5), {
+      chosen: 1,
+      pressed: 1.5,
+      verdict: "wrong",
+      mistaken: 0,
+      lead: 0.25,
+    });
+    assert.deepEqual(judge(rings([1, 1], [0, 1.25]), 1, 1.5), {
+      chosen: 1,
+      pressed: 1.5,
+      verdict: "wrong",
+      mistaken: 0,
+      lead: 0,
+    });
   });
 
   it("credits and blames nothing that became known at the press itself", () => {

@@ -86,10 +86,18 @@ export class Chart {
         cursor: { show: false },
         scales: { x: { time: false }, y: { range: [0, 1] } },
         axes: [
-          { ...axis, size: 1.6 * rem, space: 5 * rem, values: (_, splits) => splits.map((split) => `${Number(split.toFixed(2))} s`) },
+          {
+            ...axis,
+            size: 1.6 * rem,
+            space: 5 * rem,
+            values: (_, splits) => splits.map((split) => `${Number(split.toFixed(2))} s`),
+          },
           { ...axis, size: 3 * rem, splits: () => [0, 0.5, 1], values: (_, splits) => splits.map((split) => `${split * 100}%`) },
         ],
-        series: [{}, ...this.#data.slice(1).map((_, place) => area(this.#colours[BANDS[place] ?? "band-5"], this.#colours.ground))],
+        series: [
+          {},
+          ...this.#data.slice(1).map((_, place) => area(this.#colours[BANDS[place] ?? "band-5"], this.#colours.ground)),
+        ],
         bands: Array.from({ length: OWN }, (_, place) => ({ series: [place + 2, place + 1] as [number, number] })),
         hooks: { draw: [(plot) => this.#annotate(plot)] },
       },
@@ -174,7 +182,10 @@ function heaviest(times: readonly number[], values: readonly number[]): number {
     moment += value ** 2 * (times[index] ?? 0);
   });
   const middle = moment / sum;
-  return values.reduce((best, _, index) => (Math.abs((times[index] ?? 0) - middle) < Math.abs((times[best] ?? 0) - middle) ? index : best), 0);
+  return values.reduce(
+    (best, _, index) => (Math.abs((times[index] ?? 0) - middle) < Math.abs((times[best] ?? 0) - middle) ? index : best),
+    0,
+  );
 }
 
 function area(fill: string, edge: string): uPlot.Series {

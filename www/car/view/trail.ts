@@ -10,7 +10,10 @@ export function trail(places: readonly Point[], width: number): string {
     const length = Math.hypot(after.x - before.x, after.y - before.y) || 1;
     const half = (width / 2) * (index / (places.length - 1));
     const [across, down] = [(-half * (after.y - before.y)) / length, (half * (after.x - before.x)) / length];
-    return { left: `${round(place.x + across)} ${round(place.y + down)}`, right: `${round(place.x - across)} ${round(place.y - down)}` };
+    return {
+      left: `${round(place.x + across)} ${round(place.y + down)}`,
+      right: `${round(place.x - across)} ${round(place.y - down)}`,
+    };
   });
   return `M${[...sides.map((side) => side.left), ...sides.map((side) => side.right).reverse()].join("L")}Z`;
 }

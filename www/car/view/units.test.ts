@@ -62,7 +62,17 @@ describe("status", () => {
 
 describe("trail", () => {
   it("is widest at the newest place and narrows to a point", () => {
-    assert.equal(trail([{ x: 0, y: 0 }, { x: 10, y: 0 }, { x: 20, y: 0 }], 8), "M0 0L10 2L20 4L20 -4L10 -2L0 0Z");
+    assert.equal(
+      trail(
+        [
+          { x: 0, y: 0 },
+          { x: 10, y: 0 },
+          { x: 20, y: 0 },
+        ],
+        8,
+      ),
+      "M0 0L10 2L20 4L20 -4L10 -2L0 0Z",
+    );
     assert.equal(trail([{ x: 3, y: 3 }], 8), "");
   });
 });
@@ -70,7 +80,10 @@ describe("trail", () => {
 describe("arrow keys", () => {
   it("walk in reading order, by rows, and to the first and last", () => {
     const keys = ["ArrowRight", "ArrowLeft", "ArrowUp", "ArrowDown", "Home", "End"];
-    assert.deepEqual(keys.map((key) => destinationOf(key, 7, 7, 21)), [8, 6, 0, 14, 0, 20]);
+    assert.deepEqual(
+      keys.map((key) => destinationOf(key, 7, 7, 21)),
+      [8, 6, 0, 14, 0, 20],
+    );
   });
 
   it("stop at the first and last, and leave other keys alone", () => {
@@ -81,17 +94,36 @@ describe("arrow keys", () => {
 });
 
 describe("bands", () => {
-  const moment = (time: number, ...probabilities: number[]) => ({ time, probabilities: Float64Array.from(probabilities), none: 0, leader: 0 });
+  const moment = (time: number, ...probabilities: number[]) => ({
+    time,
+    probabilities: Float64Array.from(probabilities),
+    none: 0,
+    leader: 0,
+  });
   const labels = ["a", "b", "c", "d", "e", "f"];
 
   it("put the one in question at the bottom, then the weightiest, then all others as one", () => {
     const bands = bandsOf([moment(0, 0.05, 0.1, 0.2, 0.3, 0.15, 0.2), moment(1, 0.05, 0.1, 0.3, 0.3, 0.05, 0.2)], labels, 1);
-    assert.deepEqual(bands.map((band) => band.label), ["b", "d", "c", "f", "Others"]);
+    assert.deepEqual(
+      bands.map((band) => band.label),
+      ["b", "d", "c", "f", "Others"],
+    );
     assert.ok(Math.abs((bands[4]?.values[0] ?? 0) - 0.2) < 1e-12);
   });
 
   it("are stacked", () => {
-    assert.deepEqual(stack([[1, 2], [3, 4], [5, 6]]), [[1, 2], [4, 6], [9, 12]]);
+    assert.deepEqual(
+      stack([
+        [1, 2],
+        [3, 4],
+        [5, 6],
+      ]),
+      [
+        [1, 2],
+        [4, 6],
+        [9, 12],
+      ],
+    );
   });
 });
 
