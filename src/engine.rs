@@ -1,4 +1,4 @@
-//! What a predictor asks of the engine that follows a movement, whichever family it is of.
+//! The trait of engines: what a predictor needs of one in the course of a movement, whichever family it is of.
 //!
 //! | engine | methods |
 //! |---|---|

@@ -4,9 +4,9 @@
 //! reciprocal:  G_k^-1 G_{k,N} = G'_{k+1,k} G_{k+1}^-1 G_{k+1,N},  k = 1 .. N - 2
 //! Markov:      the same for k = 0 as well
 //! ```
-//! Each side minus the other is a block `(k, N)` of the inverse of the covariance of the whole sequence: a sequence is
+//! Each side minus the other is a block `(k, N)` of the inverse of the covariance of the complete sequence: a sequence is
 //! reciprocal if that inverse is block tridiagonal but for the corner `(0, N)`, and Markov if the corner vanishes too. With
-//! waypoints the same is asked of every block: those of a state and the next pin, and those of two pins.
+//! waypoints the same holds for every block: those of a state and the next pin, and those of two pins.
 
 use super::model::{Model, StepModel};
 use crate::error::{Code, Error, Result};

@@ -1,4 +1,4 @@
-//! Drawing whole sequences: the pinned states from their joint density, then the steps between from (2).
+//! Drawing complete sequences: the pinned states from their joint density, then the steps between from (2).
 
 use super::model::Model;
 use crate::error::{Code, Error, Result};

@@ -155,7 +155,7 @@ fn it_stays_positive_definite_over_ten_thousand_steps() {
         sequence.measure(k, &[10.0 * k as f64]).unwrap();
         assert!(Factor::new(sequence.state(k).unwrap().covariance).is_some(), "{k}");
     }
-    // its ends are known better than it is measured
+    // origin and destination are known better than they are measured
     assert!((sequence.state(steps).unwrap().mean[0] - 100_000.0).abs() < 1e-3);
     assert!(sequence.destination().covariance[(0, 0)] < 1e-4);
 }
@@ -231,11 +231,11 @@ fn what_is_reciprocal_and_what_is_markov() {
         assert!(sequence.is_reciprocal(DEFAULT_TOLERANCE).unwrap(), "{pins:?}");
         assert!(sequence.is_markov(DEFAULT_TOLERANCE).unwrap(), "{pins:?}");
     }
-    // a waypoint whose correlation with the ends no movement explains
+    // a waypoint whose correlation with origin and destination no movement explains
     assert!(!with_a_waypoint().is_reciprocal(DEFAULT_TOLERANCE).unwrap());
     // arbitrary matrices: conditionally Markov and no more
     assert!(!given(6).is_reciprocal(DEFAULT_TOLERANCE).unwrap());
-    // neighbouring ends have nothing between them
+    // neighbouring pins have nothing between them
     assert!(given(1).is_markov(0.0).unwrap());
     // both sides differ by at most twice the larger one
     assert!(given(6).is_markov(2.0).unwrap());
@@ -311,7 +311,7 @@ fn a_movement_towards_its_destination_takes_the_mean_end_for_the_centre() {
         })
     };
     // dx = -0.4 (x - c) dt with c = 3 is dx = (-0.4 x + 1.2) dt
-    let (knows, told) = (offset(custom(0.4, 0.0)), offset(custom(0.0, 1.2)));
-    assert!((knows.offset - told.offset).amax() < 1e-14);
-    assert_eq!(knows.previous, told.previous);
+    let (offset_given, gain_given) = (offset(custom(0.4, 0.0)), offset(custom(0.0, 1.2)));
+    assert!((offset_given.offset - gain_given.offset).amax() < 1e-14);
+    assert_eq!(offset_given.previous, gain_given.previous);
 }

@@ -136,7 +136,7 @@ pub(crate) trait Likelihood: Send + Sync {
     fn log_likelihoods(&self, scene: &Scene<'_>, table: &mut [f64]);
 
     /// The state given a destination and an arrival time, as this method's family constructs the endpoint; none where it has
-    /// no density there. Asked of the method of [`StateQuery::evidence`].
+    /// no density there. Computed by the method of [`StateQuery::evidence`].
     fn states(&self, query: &StateQuery<'_>) -> Option<States> {
         query.given_pseudo_observation()
     }

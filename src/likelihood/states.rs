@@ -1,4 +1,4 @@
-//! The state given a destination and an arrival time, `p(x(t) | y_1:k, D_i, T_n)`: asked of every method, and Liang (10).
+//! The state given a destination and an arrival time, `p(x(t) | y_1:k, D_i, T_n)`: of every method, and Liang (10).
 //!
 //! Each family answers from its own construction of the endpoint. Where the endpoint is a pseudo-observation of `x_T` that is
 //! Liang (10), here; where it is independent of the start it is the posterior of the augmented state, in

@@ -44,7 +44,7 @@ pub fn decay_square(x: f64) -> f64 {
     sum
 }
 
-/// Enough for `2^k / k!` to vanish beside one.
+/// Enough for `2^k / k!` to vanish against one.
 const TERMS: u32 = 26;
 
 #[cfg(test)]

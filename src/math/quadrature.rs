@@ -27,7 +27,7 @@ pub enum Quadrature {
         /// How many nodes.
         points: usize,
     },
-    /// Gauss and Legendre's rule; at least 1. The ends of the interval are no nodes.
+    /// Gauss and Legendre's rule; at least 1. The limits of the interval are no nodes.
     GaussLegendre {
         /// How many nodes.
         points: usize,

@@ -7,17 +7,17 @@
 //! ```
 //!
 //! Van Loan reads all three off one exponential of a block matrix; its corner `exp(-A h)` overflows for long steps, and
-//! scaling and squaring of the whole loses small entries beside large ones. Here the series of the same blocks is summed
+//! scaling and squaring of all of it loses small entries against large ones. Here the series of the same blocks is summed
 //! for a step of at most half of `1 / |A|`, which keeps the relative accuracy of every entry, and the step is doubled:
 //! ```text
 //! F - 1 = E:  E(2h) = 2 E + E E        I(2h) = 2 I + E I        Q(2h) = Q + F Q F'
 //! ```
-//! Carrying `F - 1` instead of `F` keeps modes that are slow beside `|A|`.
+//! Carrying `F - 1` instead of `F` keeps modes that are slow against `|A|`.
 
 use super::gaussian::symmetrise;
 use nalgebra::DMatrix;
 
-/// `1 / (k + 1)!` vanishes beside one at the last of them.
+/// `1 / (k + 1)!` vanishes against one at the last of them.
 const TERMS: usize = 19;
 
 /// The series of one equation, ready for any step.

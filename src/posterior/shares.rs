@@ -1,9 +1,9 @@
-//! Probabilities of destinations by their priors, and by themselves beside "none".
+//! Probabilities of destinations by their priors, and given that it is not "none".
 
 use crate::math::kernel::vectors::WIDTH;
 use crate::math::log_sum_exp::share;
 
-/// Below this, probabilities beside that of none have lost digits: their ratios are computed from the logarithms.
+/// Below this, probabilities have lost digits to that of none: their ratios are computed from the logarithms.
 const SMALLEST_SUM: f64 = 1e-280;
 
 /// Writes the prior probabilities, where `none` is that of none of them: before the first observation, and where no
@@ -16,7 +16,7 @@ pub fn prior(priors: &[f64], none: f64, into: &mut Vec<f64>) {
     into.extend(priors.iter().map(|prior| (1.0 - none) * prior / total));
 }
 
-/// The destinations with their shares of the probability beside none, or one of them alone. `log_likelihoods` is read only
+/// The destinations with their shares of the probability that is not none, or one of them alone. `log_likelihoods` is read only
 /// where the probabilities are too small.
 #[must_use]
 pub fn beside_none(

@@ -122,7 +122,7 @@ impl Movement {
         self.engine.initial_state(&shares)
     }
 
-    /// The destinations with their shares of the probability beside none, or one of them alone.
+    /// The destinations with their shares of the probability that is not none, or one of them alone.
     fn shares(&mut self, posterior: &Posterior, priors: &[f64], only: Option<usize>) -> Vec<(usize, f64)> {
         shares::beside_none(&posterior.probabilities, priors, only, || {
             let mut log_likelihoods = Vec::new();

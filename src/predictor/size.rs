@@ -1,4 +1,4 @@
-//! How much a predictor has of what takes memory: the package asks for it before a call (`js/core/memory.ts`).
+//! How many numbers a predictor holds: the package reserves memory for them before a call (`js/core/memory.ts`).
 
 use super::Predictor;
 use crate::likelihood::Method;

@@ -2,7 +2,7 @@
 //!
 //! Destinations that lie together follow one another in the arrays, 64 in a part with a bounding box. On a box each quadratic of
 //! the sum has its largest value where its slope vanishes or at an edge, axis by axis, which bounds the sum of the part's
-//! weights. A part whose bound is nothing beside the sum is not evaluated, and its probabilities are zero: all that is left
+//! weights. A part whose bound is negligible against the sum is not evaluated, and its probabilities are zero: all that is left
 //! out is less than 1e-14 of the sum.
 
 use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, Places};

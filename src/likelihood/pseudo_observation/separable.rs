@@ -88,7 +88,7 @@ impl Axes {
     }
 
     /// Turns the posterior of the first observation into the prediction of the state `elapsed` after it: means and covariances.
-    /// Nobody observes it any more, so the roots stay.
+    /// It is not observed any more, so the roots stay.
     pub fn propagate(&mut self, model: &dyn MotionModel, elapsed: f64) {
         let Some(shared) = model.axis(0, elapsed) else { return };
         propagate(&mut self.filters[0], &shared);

@@ -39,7 +39,7 @@ pub(crate) struct Telescoped {
     work: Work,
 }
 
-/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is nothing beside it.
+/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
 pub(super) const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
 
 /// Probabilities below this are zero, so that the shift does not matter.

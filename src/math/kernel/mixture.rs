@@ -74,7 +74,7 @@ fn weighted_sums<const D: usize, T: Term<D>>(
         let Some(place) = T::place(places, i) else { break };
         let (mut term, mut rest) = (first, others.iter());
         let mut sum = Lanes::splat(0.0);
-        // the test stands at the end, because engines compile a loop the better for it, by a third
+        // the test comes last: engines compile such a loop to code that is a third faster
         loop {
             let (exponent, factor) = term.exponent_and_factor(&place);
             sum = sum + factor * exponent.exp2(&shift);

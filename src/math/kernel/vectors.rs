@@ -164,7 +164,7 @@ impl Lanes {
     }
 
     /// The square of the angle between two unit vectors, from the squared lengths of their sum and their difference, which
-    /// tell right angles, small ones and large ones alike; to an absolute 2e-14.
+    /// resolve small, right and large angles alike; to an absolute 2e-14.
     ///
     /// They are `4 cos^2(x/2)` and `4 sin^2(x/2)`; `sin^2(x/4) = sin^2(x/2) / 2 (1 + cos(x/2))` halves without cancellation.
     #[inline(always)]
@@ -235,7 +235,7 @@ impl Number for Lanes {
 /// An integer that [`Lanes::exp2`] takes off every exponent.
 #[derive(Clone, Copy, Debug)]
 pub struct Shift {
-    /// `1.5 * 2^52 - shift`: added to a number below `2^51`, it leaves the nearest integer, shifted, in the last bits.
+    /// `1.5 * 2^52 - shift`: added to a number below `2^51`, the nearest integer, shifted, is in the last bits.
     rounder: f64,
     least: f64,
     most: f64,

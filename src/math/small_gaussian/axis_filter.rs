@@ -91,7 +91,7 @@ impl<const S: usize, const PAIR: usize> AxisFilter<S, PAIR> {
         step.root(&mut rows);
         for i in 0..s {
             self.root[s + i] = rows[i];
-            // what the state now does not share with the first one, and the noise beside it
+            // what the state now does not share with the first one, and the noise
             for q in 0..s {
                 (rows[i][q], rows[i][s + q]) = (rows[i][s + q], noise[i][q]);
             }
