@@ -95,12 +95,21 @@ impl VanLoan {
         let mut change = sum(&self.change, short);
         let mut integral = sum(&self.integral, short) / self.rate;
         let mut noise = sum(&self.noise, short) / self.rate;
+        let (mut grown, mut product) = (change.clone(), change.clone());
         for _ in 0..doublings {
-            let grown = &change * &noise;
             // Q + (1 + E) Q (1 + E)'
-            noise = 2.0 * noise + &grown + grown.transpose() + &grown * change.transpose();
-            integral = 2.0 * &integral + &change * &integral;
-            change = 2.0 * &change + &change * &change;
+            change.mul_to(&noise, &mut grown);
+            grown.mul_to(&change.transpose(), &mut product);
+            noise *= 2.0;
+            noise += &grown;
+            noise += grown.transpose();
+            noise += &product;
+            change.mul_to(&integral, &mut product);
+            integral *= 2.0;
+            integral += &product;
+            change.mul_to(&change, &mut product);
+            change *= 2.0;
+            change += &product;
         }
         symmetrise(&mut noise);
         for i in 0..change.nrows() {
