@@ -1,8 +1,103 @@
 //! What the tools and tests of this repository use of the inside. It is no part of the interface and changes with any release.
+//!
+//! Data ([`Value`]) are what JavaScript's objects are read as; each function here reads them and calls the typed interface.
+
+pub use crate::conditionally_markov::DEFAULT_TOLERANCE;
+pub use crate::math::gaussian::{condition, propagate};
+pub use crate::math::log_sum_exp::log_sum_exp;
+pub use crate::math::random::Random;
+pub use crate::model::bridge::Bridge;
+pub use crate::model::destination::Destinations;
+pub use crate::model::endpoint::Endpoint;
+pub use crate::model::motion::{MotionModel, MotionModels};
+pub use crate::model::observation::ObservationModel;
+pub use crate::value::{Node, Value};
 
 use crate::conditionally_markov::{ConditionallyMarkovSequence, GivenSequence, SequenceParameters};
 use crate::error::Result;
-use crate::value::{Node, Value};
+use crate::math::quadrature::Quadrature;
+use crate::model::arrival::Arrival;
+use crate::model::observation::ObservationNoise;
+use crate::predictor::Predictor;
+use crate::scenario::{Scenario, Setup};
+
+/// A scenario from data.
+///
+/// # Errors
+/// Those of reading and of [`ScenarioBuilder::build`](crate::ScenarioBuilder::build).
+pub fn scenario(value: &Value) -> Result<Scenario> {
+    Scenario::from_value(value)
+}
+
+/// A scenario as data.
+#[must_use]
+pub fn data(scenario: &Scenario) -> Value {
+    scenario.to_value()
+}
+
+/// The validated parts of a scenario.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'a> {
+    /// How the object moves.
+    pub motion: &'a MotionModels,
+    /// How it is observed.
+    pub observation: &'a ObservationModel,
+    /// Where it may be going.
+    pub destinations: &'a Destinations,
+    /// When it may arrive and how that is summed over, for the methods of the papers.
+    pub arrival: Option<(&'a Arrival, &'a Quadrature)>,
+}
+
+/// The validated parts of a scenario.
+#[must_use]
+pub fn parts(scenario: &Scenario) -> Parts<'_> {
+    Parts {
+        motion: &scenario.motion,
+        observation: &scenario.observation,
+        destinations: &scenario.destinations,
+        arrival: match &scenario.setup {
+            Setup::Papers { arrival, quadrature, .. } => Some((arrival, quadrature)),
+            Setup::Pointing(_) => None,
+        },
+    }
+}
+
+/// The noise of one observation of so many axes from data.
+///
+/// # Errors
+/// `wrong-type`.
+pub fn noise(value: &Value, axes: usize) -> Result<ObservationNoise> {
+    ObservationNoise::read(&Node::root(value, "noise"), axes)
+}
+
+fn call(key: &str, id: Option<&str>, value: &Value, act: impl FnOnce(&Node<'_>) -> Result<()>) -> Result<()> {
+    let entries = vec![("id", id.map(Value::text)), (key, Some(value.clone()))];
+    act(&Node::root(&Value::some(entries), ""))
+}
+
+/// [`Predictor::add_destination`] with data.
+///
+/// # Errors
+/// Those of reading and of the method.
+pub fn add_destination(predictor: &mut Predictor, destination: &Value) -> Result<()> {
+    call("destination", None, destination, |node| predictor.add_value(node))
+}
+
+/// [`Predictor::update_destination`] with data.
+///
+/// # Errors
+/// Those of reading and of the method.
+pub fn update_destination(predictor: &mut Predictor, id: &str, destination: &Value) -> Result<()> {
+    call("destination", Some(id), destination, |node| predictor.update_value(node))
+}
+
+/// [`Predictor::set_destinations`] with data.
+///
+/// # Errors
+/// Those of reading and of the method.
+pub fn set_destinations(predictor: &mut Predictor, destinations: &Value) -> Result<()> {
+    call("destinations", None, destinations, |node| predictor.set_value(node))
+}
 
 /// A sequence from the data that JavaScript's constructor takes.
 ///

@@ -137,21 +137,24 @@ pub use conditionally_markov::{
     Boundary, ConditionallyMarkovSequence, GivenSequence, SequenceParameters, StepModel, TimeStep,
 };
 pub use error::{Code, Error, Result};
+pub use likelihood::Method;
 pub use math::gaussian::Gaussian;
 pub use math::quadrature::Quadrature;
 pub use model::arrival::Arrival;
 pub use model::destination::Destination;
+pub use model::habits::Learning;
 pub use model::initial::Initial;
 pub use model::matrix::Matrix;
 pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};
 pub use model::per_axis::PerAxis;
+pub use pointer::{PointerOptions, PointerTarget, pointer_scenario};
 pub use pointing::parameters::Parameters as PointingConstants;
 pub use posterior::Best;
 pub use posterior::arrival_time::ArrivalTime;
 pub use posterior::remaining::Remaining;
 pub use predictor::Predictor;
-pub use scenario::Scenario;
+pub use scenario::{Scenario, ScenarioBuilder};
 pub use value::Value;
 
 /// The README's Rust code is run as a documentation test.

@@ -1,6 +1,7 @@
 //! The predictor: observations in, posteriors out.
 
 mod edit;
+mod form;
 mod movement;
 #[cfg(feature = "wasm")]
 mod size;
@@ -14,7 +15,7 @@ use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::remaining::Remaining;
 use crate::posterior::{Best, Posterior};
 use crate::scenario::Scenario;
-use crate::value::{Node, Value, number};
+use crate::value::{Path, number};
 pub(crate) use movement::Movement;
 use std::sync::Arc;
 
@@ -98,16 +99,15 @@ impl Predictor {
     ///
     /// # Errors
     /// As [`Predictor::observe`], and those of the scenario's `observation.noise`.
-    pub fn observe_with(&mut self, time: f64, position: &[Option<f64>], noise: Option<&Value>) -> Result<()> {
+    pub fn observe_with(
+        &mut self,
+        time: f64,
+        position: &[Option<f64>],
+        noise: Option<&ObservationNoise>,
+    ) -> Result<()> {
         check_time("time", time)?;
         let model = &self.scenario.observation;
-        let noise = match noise {
-            None => None,
-            Some(noise) => {
-                let node = Node::root(noise, "noise");
-                Some(ObservationNoise::read(&node, model.axes())?.check(node.place(), model.axes())?)
-            }
-        };
+        let noise = noise.map(|noise| noise.check(&Path::root("noise"), model.axes())).transpose()?;
         model.check(position)?;
         let noise = noise.as_ref().unwrap_or_else(|| model.noise());
         let Some(movement) = &mut self.movement else {

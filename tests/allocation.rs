@@ -6,7 +6,7 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use serde_json::{Value as Json, json};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Predictor, Scenario};
 
 /// The sizes of the targets.

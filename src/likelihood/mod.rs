@@ -38,6 +38,17 @@ use states::{StateQuery, States};
 use std::fmt;
 
 /// The six methods of the papers.
+///
+/// | method | cost of an observation |
+/// |---|---|
+/// | `PseudoObservation` (default) | one filter, two densities for each destination and arrival time: the numbers of the algorithms |
+/// | `Algorithm1`, `Algorithm2` | Liang's, step by step: one update for each, or two |
+/// | `Bridging` | a filter for each destination and arrival time |
+/// | `SingleFilter`, `SingleFilterApproximate` | Ardeshiri's: one filter, closed forms |
+///
+/// ```
+/// assert_eq!(whither::Method::SingleFilter.name(), "singleFilter"); // as JSON spells it
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The telescoped form of Liang's prediction errors: one filter, then two densities for each destination and node.

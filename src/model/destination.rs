@@ -103,6 +103,19 @@ impl Destination {
         Self { arrival: Some(arrival), ..self }
     }
 
+    /// Its id.
+    pub(crate) fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Reads a list of destinations.
+    ///
+    /// # Errors
+    /// As [`Destination::read`].
+    pub(crate) fn read_all(node: &Node<'_>, dimensions: usize) -> Result<Vec<Self>> {
+        node.items()?.map(|item| Self::read(&item, dimensions)).collect()
+    }
+
     /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`.
     ///
     /// # Errors

@@ -11,7 +11,7 @@
 
 use super::destination::Destinations;
 use crate::error::{Code, Result};
-use crate::value::{Node, Value};
+use crate::value::{Node, Path, Value};
 
 /// Counts below this are forgotten.
 const LEAST_COUNT: f64 = 1e-6;
@@ -19,13 +19,13 @@ const LEAST_COUNT: f64 = 1e-6;
 /// More pairs of last and next choice than this are not kept: the rarest half goes.
 const MOST_PAIRS: usize = 1 << 16;
 
-/// The scenario's key `learning`.
+/// How the destinations' priors are learnt from what is chosen: counts with a Dirichlet prior.
 ///
 /// ```
-/// use whither::{Value, model::habits::Learning, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "strength": 5, "forgetting": 0.02, "afterLast": 3 }"#).unwrap();
-/// let learning = Learning::read(&Node::root(&value, "learning")).unwrap();
-/// assert_eq!(learning.to_value(), value);
+/// use whither::Learning;
+/// // the scenario's priors are worth five choices, the habit at large three after each last choice; a fiftieth is forgotten each time
+/// let learning = Learning::new(5.0).forgetting(0.02).after_last(3.0);
+/// # let _ = learning;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Learning {
@@ -98,24 +98,45 @@ impl Counts {
 }
 
 impl Learning {
+    /// Priors of the scenario that are worth `strength` choices, above 0; nothing is forgotten, and the last choice has no influence.
+    #[must_use]
+    pub const fn new(strength: f64) -> Self {
+        Self { strength, forgetting: 0.0, after_last: None }
+    }
+
+    /// The share of every count that is lost at each choice, at least 0 and less than 1.
+    #[must_use]
+    pub const fn forgetting(self, share: f64) -> Self {
+        Self { forgetting: share, ..self }
+    }
+
+    /// Counts what is chosen after each last choice; the habit at large is worth so many choices against that, above 0.
+    #[must_use]
+    pub const fn after_last(self, strength: f64) -> Self {
+        Self { after_last: Some(strength), ..self }
+    }
+
     /// Reads `{ strength, forgetting?, afterLast? }`.
+    pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
+        let fields = node.fields(&["strength", "forgetting", "afterLast"])?;
+        Ok(Self {
+            strength: fields.float("strength")?,
+            forgetting: fields.optional("forgetting").map_or(Ok(0.0), |share| share.float())?,
+            after_last: fields.optional("afterLast").map(|strength| strength.float()).transpose()?,
+        })
+    }
+
+    /// Whether these numbers are legal.
     ///
     /// # Errors
-    /// `unknown-key`, `missing-key`, `wrong-type`, `not-finite`, `out-of-range`.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["strength", "forgetting", "afterLast"])?;
-        let forgetting = match fields.optional("forgetting") {
-            None => 0.0,
-            Some(node) => match node.number()? {
-                share if (0.0..1.0).contains(&share) => share,
-                _ => return Err(node.error(Code::OutOfRange, "must be at least 0 and less than 1")),
-            },
-        };
-        Ok(Self {
-            strength: fields.positive("strength")?,
-            forgetting,
-            after_last: fields.optional("afterLast").map(|node| node.positive()).transpose()?,
-        })
+    /// `not-finite`, `out-of-range`.
+    pub(crate) fn check(&self, at: &Path<'_>) -> Result<()> {
+        let place = at.key("forgetting");
+        if !(0.0..1.0).contains(&place.number(self.forgetting)?) {
+            return Err(place.error(Code::OutOfRange, "must be at least 0 and less than 1", self.forgetting));
+        }
+        at.key("strength").positive(self.strength)?;
+        self.after_last.map_or(Ok(()), |strength| at.key("afterLast").positive(strength).map(|_| ()))
     }
 
     /// The key as it is written.

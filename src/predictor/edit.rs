@@ -3,7 +3,7 @@
 use super::Predictor;
 use crate::error::{Code, Error, Result};
 use crate::model::destination::{Destination, Destinations};
-use crate::value::{Node, Value};
+use crate::value::quote;
 use std::sync::Arc;
 
 impl Predictor {
@@ -11,33 +11,21 @@ impl Predictor {
     ///
     /// # Errors
     /// Those of a scenario's destination; `duplicate-id`; `method-accumulates` in mid-movement where the method, or a motion
-    /// model that depends on the destination, accumulates for each of them. Nothing has changed then.
-    pub fn add_destination(&mut self, destination: &Value) -> Result<()> {
-        let destination = Destination::read(&Node::root(destination, "destination"), self.dimensions())?;
+    /// model that knows the destination, accumulates for each of them. Nothing has changed then.
+    pub fn add_destination(&mut self, destination: Destination) -> Result<()> {
         self.replace(self.destinations.with(destination, self.states())?)
     }
 
-    /// Puts another destination in the place of `id`; it keeps the id, and `destination` may leave it out.
+    /// Puts another destination, of the same id, in the place of `id`.
     ///
     /// # Errors
-    /// `unknown-id`, and as [`Predictor::add_destination`].
-    pub fn update_destination(&mut self, id: &str, destination: &Value) -> Result<()> {
+    /// `unknown-id`, `out-of-range` for another id, and as [`Predictor::add_destination`].
+    pub fn update_destination(&mut self, id: &str, destination: Destination) -> Result<()> {
         let i = self.destinations.index_of(id)?;
-        let mut named = destination.clone();
-        if let Value::Map(entries) = &mut named {
-            match entries.iter().find(|(key, value)| key == "id" && *value != Value::Null) {
-                Some((_, given)) if *given != Value::text(id) => {
-                    let message = format!("must stay {}, got {}", Value::text(id).quoted(), given.quoted());
-                    return Err(Error::new(Code::OutOfRange, "destination.id", message));
-                }
-                Some(_) => {}
-                None => {
-                    entries.retain(|(key, _)| key != "id");
-                    entries.push(("id".to_owned(), Value::text(id)));
-                }
-            }
+        if destination.id() != id {
+            let message = format!("must stay {}, got {}", quote(id), quote(destination.id()));
+            return Err(Error::new(Code::OutOfRange, "destination.id", message));
         }
-        let destination = Destination::read(&Node::root(&named, "destination"), self.dimensions())?;
         self.replace(self.destinations.with_replaced(i, destination, self.states())?)
     }
 
@@ -50,14 +38,13 @@ impl Predictor {
         self.replace(self.destinations.without(i)?)
     }
 
-    /// Sets all destinations at once, a scenario's list of them; ids that stay keep their state.
+    /// Sets all destinations at once; ids that stay keep their state.
     ///
     /// # Errors
     /// Those of a scenario's destinations, and as [`Predictor::add_destination`].
-    pub fn set_destinations(&mut self, destinations: &Value) -> Result<()> {
-        let node = Node::root(destinations, "destinations");
-        let changed = Destinations::read(&node, self.dimensions(), self.states())?;
-        self.replace(changed)
+    pub fn set_destinations(&mut self, destinations: impl IntoIterator<Item = Destination>) -> Result<()> {
+        let list = destinations.into_iter().collect();
+        self.replace(Destinations::new(list, self.dimensions(), self.states())?)
     }
 
     fn replace(&mut self, changed: Destinations) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use super::Predictor;
 use crate::likelihood::Method;
-use crate::scenario::Engine;
+use crate::scenario::Setup;
 
 impl Predictor {
     /// Destinations, and bytes of their ids; and of the papers' methods numbers for each destination and arrival time, numbers for
@@ -15,7 +15,7 @@ impl Predictor {
 
     fn numbers(&self) -> [f64; 4] {
         let (scenario, destinations) = (&self.scenario, &self.destinations);
-        let Engine::Papers { method, arrival, quadrature, .. } = &scenario.engine else { return [0.0; 4] };
+        let Setup::Papers { method, arrival, quadrature, .. } = &scenario.setup else { return [0.0; 4] };
         let prior = |class: usize| destinations.classes()[class].arrival().unwrap_or(arrival);
         let points = |class: usize| prior(class).points(quadrature) as f64;
         let mut pairs = 0.0;

@@ -1,6 +1,6 @@
 //! Which engine a scenario has: begun at the first observation, or loaded from a snapshot.
 
-use super::{Method, Scenario};
+use super::{Method, Scenario, Setup};
 use crate::engine::{Engine, Observed};
 use crate::error::Result;
 use crate::likelihood::configuration::Configuration;
@@ -52,9 +52,9 @@ impl Scenario {
     }
 
     fn choice(&self, start: Vec<f64>) -> Choice {
-        let (method, arrival, quadrature) = match &self.engine {
-            super::Engine::Papers { method, arrival, quadrature } => (*method, arrival.clone(), quadrature.clone()),
-            super::Engine::Pointing(parameters) => return Choice::Pointing(Arc::clone(parameters), start),
+        let (method, arrival, quadrature) = match &self.setup {
+            Setup::Papers { method, arrival, quadrature } => (*method, arrival.clone(), quadrature.clone()),
+            Setup::Pointing(parameters) => return Choice::Pointing(Arc::clone(parameters), start),
         };
         // one filter for all destinations, and nothing accumulates
         let telescopes = method == Method::PseudoObservation && !self.motion.depends_on_destination();

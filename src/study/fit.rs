@@ -9,7 +9,7 @@ use super::metrics::Score;
 use super::track::Track;
 use crate::error::{Code, Error, Result};
 use crate::predictor::Predictor;
-use crate::scenario::Engine;
+use crate::scenario::Setup;
 use crate::value::{Node, Value, quote};
 use cobyla::{RhoBeg, StopTols, minimize};
 use std::cell::Cell;
@@ -217,7 +217,7 @@ impl Search<'_> {
         for track in tracks {
             let Some(approach) = track.approach() else { continue };
             let scenario = track.scenario(&template, self.extra)?;
-            if matches!(scenario.engine, Engine::Pointing(_)) {
+            if matches!(scenario.setup, Setup::Pointing(_)) {
                 let score = Score::of_scenario(track, approach, &scenario)?;
                 loss += score.loss;
                 samples += score.samples;

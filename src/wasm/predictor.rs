@@ -3,7 +3,7 @@
 use super::{Result, data, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
-use crate::value::{Node, Value};
+use crate::value::Node;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -58,17 +58,7 @@ impl Engine {
     /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
     pub fn observe_in_full(&mut self, value: JsValue) -> Result<()> {
         let value = data::read(&value)?;
-        let node = Node::root(&value, "");
-        let fields = node.fields(&["time", "position", "noise"])?;
-        let time = fields.number("time")?;
-        let position = fields.required("position")?;
-        let coordinate = |item: Node<'_>| match item.value() {
-            Value::Null => Ok(None),
-            _ => item.number().map(Some),
-        };
-        let position = position.items()?.map(coordinate).collect::<crate::Result<Vec<_>>>()?;
-        let noise = fields.optional("noise");
-        Ok(self.predictor.observe_with(time, &position, noise.as_ref().map(Node::value))?)
+        Ok(self.predictor.observe_value(&Node::root(&value, ""))?)
     }
 
     /// The sizes by which `js/core/memory.ts` bounds what is allocated.
@@ -163,18 +153,13 @@ impl Engine {
     /// Adds `{ destination }`.
     pub fn add_destination(&mut self, value: JsValue) -> Result<()> {
         let value = data::read(&value)?;
-        let node = Node::root(&value, "");
-        let destination = node.fields(&["destination"])?.required("destination")?.value();
-        Ok(self.predictor.add_destination(destination)?)
+        Ok(self.predictor.add_value(&Node::root(&value, ""))?)
     }
 
     /// Replaces `{ id, destination }`.
     pub fn update_destination(&mut self, value: JsValue) -> Result<()> {
         let value = data::read(&value)?;
-        let node = Node::root(&value, "");
-        let fields = node.fields(&["id", "destination"])?;
-        let id = fields.required("id")?.text()?;
-        Ok(self.predictor.update_destination(id, fields.required("destination")?.value())?)
+        Ok(self.predictor.update_value(&Node::root(&value, ""))?)
     }
 
     /// Removes `{ id }`.
@@ -187,9 +172,7 @@ impl Engine {
     /// Sets all `{ destinations }`.
     pub fn set_destinations(&mut self, value: JsValue) -> Result<()> {
         let value = data::read(&value)?;
-        let node = Node::root(&value, "");
-        let destinations = node.fields(&["destinations"])?.required("destinations")?.value();
-        Ok(self.predictor.set_destinations(destinations)?)
+        Ok(self.predictor.set_value(&Node::root(&value, ""))?)
     }
 
     /// Begins a new movement.

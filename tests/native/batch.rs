@@ -4,7 +4,7 @@ use crate::problem::{Observed, Problem};
 use crate::support::{numbers, value};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use serde_json::Value as Json;
-use whither::model::motion::MotionModel;
+use whither::internals::{MotionModel, Parts, parts};
 use whither::{Gaussian, Scenario};
 
 /// The states at all times, the observations and the endpoint as one Gaussian vector, written down from the process: `x_k =
@@ -20,29 +20,33 @@ type Linear = (DVector<f64>, DMatrix<f64>, DMatrix<f64>);
 
 impl<'a> Batch<'a> {
     pub fn new(problem: &'a Problem, method: &'a str) -> Self {
-        Self { problem, scenario: Scenario::from_value(&value(&problem.scenario)).unwrap(), method }
+        Self { problem, scenario: whither::internals::scenario(&value(&problem.scenario)).unwrap(), method }
+    }
+
+    fn parts(&self) -> Parts<'_> {
+        parts(&self.scenario)
     }
 
     /// `log p(y_2:k | y_1, D_i)`, or `log p(y_1:k | D_i)` where the first observation's evidence counts; of the approximate
     /// method up to what does not depend on the destination.
     pub fn log_likelihood(&self, i: usize) -> f64 {
         let each: Vec<f64> = self.nodes(i).into_iter().map(|(_, _, log)| log).collect();
-        whither::math::log_sum_exp::log_sum_exp(&each)
+        whither::internals::log_sum_exp(&each)
     }
 
     /// The state at `time`, given that the object goes to one of the destinations.
     pub fn state(&self, time: f64) -> Gaussian {
         let mut parts = Vec::new();
-        for i in 0..self.scenario.destinations.len() {
-            let prior = self.scenario.destinations.priors()[i].ln();
+        for i in 0..self.parts().destinations.len() {
+            let prior = self.parts().destinations.priors()[i].ln();
             for (candidate, arrival, log) in self.nodes(i) {
                 let at = (time - self.problem.observations[0].time).min(arrival);
                 parts.push((prior + log, self.state_given(candidate, i, arrival, at)));
             }
         }
         let logs: Vec<f64> = parts.iter().map(|(log, _)| *log).collect();
-        let total = whither::math::log_sum_exp::log_sum_exp(&logs);
-        let s = self.scenario.motion.states();
+        let total = whither::internals::log_sum_exp(&logs);
+        let s = self.parts().motion.states();
         let (mut mean, mut square) = (DVector::zeros(s), DMatrix::zeros(s, s));
         for (log, part) in &parts {
             mean += &part.mean * (log - total).exp();
@@ -56,18 +60,18 @@ impl<'a> Batch<'a> {
 
     /// Candidate, arrival time, and log of weight times likelihood.
     fn nodes(&self, i: usize) -> Vec<(usize, f64, f64)> {
-        let whither::scenario::Engine::Papers { arrival, quadrature, .. } = &self.scenario.engine else { panic!() };
+        let (arrival, quadrature) = self.parts().arrival.unwrap();
         let destination = self.endpoint(i);
         let first = &self.problem.observations[0];
         let start = self.first_position(first);
-        let d = self.scenario.motion.dimensions();
+        let d = self.parts().motion.dimensions();
         let distance = destination.mean.iter().take(d).zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
-        let class = self.scenario.destinations.class(i);
+        let class = self.parts().destinations.class(i);
         let grid = class.arrival().unwrap_or(arrival).grid(quadrature, distance, class.extent(d));
         let last = self.problem.observations[self.problem.observations.len() - 1].time - first.time;
         let conditioned = usize::from(self.problem.scenario["initial"]["evidence"] != Json::Bool(true));
         let mut nodes = Vec::new();
-        for (c, candidate) in self.scenario.motion.candidates.iter().enumerate() {
+        for (c, candidate) in self.parts().motion.candidates.iter().enumerate() {
             for (time, log_weight) in grid.times.iter().zip(&grid.log_weights).filter(|(time, _)| **time > last) {
                 let stack = Stack::new(self, candidate.model.as_ref(), &destination, &[], *time);
                 let with = |count: usize| stack.log_density(self, &destination, count);
@@ -84,13 +88,13 @@ impl<'a> Batch<'a> {
 
     /// `N(a_i, S_i)`.
     fn endpoint(&self, i: usize) -> Gaussian {
-        let destinations = &self.scenario.destinations;
+        let destinations = self.parts().destinations;
         Gaussian { mean: DVector::from_vec(destinations.mean(i)), covariance: destinations.class(i).covariance() }
     }
 
     fn state_given(&self, candidate: usize, i: usize, arrival: f64, at: f64) -> Gaussian {
         let destination = self.endpoint(i);
-        let model = self.scenario.motion.candidates[candidate].model.as_ref();
+        let model = self.parts().motion.candidates[candidate].model.as_ref();
         let stack = Stack::new(self, model, &destination, &[at], arrival);
         let (y, g, v) = stack.observed(self, &destination, self.problem.observations.len());
         let cross = &stack.covariance * g.transpose();
@@ -129,7 +133,7 @@ impl<'a> Batch<'a> {
             Some(matrix) => matrix[r][c].as_f64().unwrap(),
             None => f64::from(u8::from(r == c)),
         };
-        let states = self.scenario.motion.states();
+        let states = self.parts().motion.states();
         (!present.is_empty()).then(|| {
             (
                 DVector::from_iterator(present.len(), present.iter().map(|&r| observed.position[r].unwrap())),

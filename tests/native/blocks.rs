@@ -3,8 +3,8 @@
 use crate::support::{predictor, relative, value};
 use serde_json::{Value as Json, json};
 use whither::Predictor;
-use whither::math::random::Random;
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::internals::Random;
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 /// One target; every third one has a speed on arrival, where wanted.
 fn place(random: &mut Random, name: usize, sizes: &[f64], speeds: bool) -> Json {
@@ -22,7 +22,7 @@ fn scenario(method: &str, none: f64, destinations: &[Json]) -> Json {
     if method == "pointing" {
         let target = PointerTarget { id: "a".to_owned(), x: 0.0, y: 0.0, width: 50.0, height: 50.0 };
         let pointer = pointer_scenario(&[target], PointerOptions { none }).unwrap();
-        let mut scenario = serde_json::to_value(pointer.to_value()).unwrap();
+        let mut scenario = serde_json::to_value(pointer).unwrap();
         scenario["destinations"] = json!(destinations);
         return scenario;
     }
@@ -72,7 +72,7 @@ fn the_posterior_does_not_depend_on_how_the_destinations_came_about() {
                 match k % 4 {
                     1 | 2 => {
                         let new = place(&mut random, count + k as usize, sizes, speeds);
-                        edited.add_destination(&value(&new)).unwrap();
+                        whither::internals::add_destination(&mut edited, &value(&new)).unwrap();
                         list.push(new);
                     }
                     3 => {
@@ -84,7 +84,12 @@ fn the_posterior_does_not_depend_on_how_the_destinations_came_about() {
                         for i in [0, (list.len() - 1) / 4 * 4, list.len() - 1] {
                             let mut new = place(&mut random, i + k as usize, sizes, speeds);
                             new["id"] = list[i]["id"].clone();
-                            edited.update_destination(new["id"].as_str().unwrap(), &value(&new)).unwrap();
+                            whither::internals::update_destination(
+                                &mut edited,
+                                new["id"].as_str().unwrap(),
+                                &value(&new),
+                            )
+                            .unwrap();
                             list[i] = new;
                         }
                     }

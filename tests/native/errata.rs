@@ -107,7 +107,7 @@ fn ardeshiris_twelfth_line_lacks_the_observation_matrix() {
     let identity = DMatrix::identity(2, 2);
     assert!(((&identity - &gain * &c) * &p - &expected).amax() < 1e-12);
     assert!(((&identity - &gain) * &p - &expected).amax() > 0.1);
-    let ours = whither::math::gaussian::condition(&p, &c, &r).unwrap();
+    let ours = whither::internals::condition(&p, &c, &r).unwrap();
     assert!((ours.covariance() - expected).amax() < 1e-12);
 }
 
@@ -119,14 +119,9 @@ fn rezaie_and_lis_twelfth_equation_steps_from_the_state_before() {
     let end = 5.0;
     let (mut mean, mut variance) = (0.0, 0.0);
     for (k, left) in [(1, 4.0), (2, 3.0), (3, 2.0)] {
-        let bridge = whither::model::bridge::Bridge::new(
-            &dmatrix![1.0],
-            &dmatrix![1.0],
-            &dmatrix![1.0],
-            &dmatrix![left - 1.0],
-            1,
-        )
-        .unwrap();
+        let bridge =
+            whither::internals::Bridge::new(&dmatrix![1.0], &dmatrix![1.0], &dmatrix![1.0], &dmatrix![left - 1.0], 1)
+                .unwrap();
         let (previous, destination) = (bridge.previous[0], bridge.destination[0]);
         mean = previous * mean + destination * end;
         variance = previous * previous * variance + bridge.covariance[0];

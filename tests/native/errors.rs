@@ -6,8 +6,9 @@
 
 use crate::support::{change, predictor, read, value};
 use serde_json::{Value as Json, json};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
-use whither::{ConditionallyMarkovSequence, Error, Predictor, Result, Scenario, Value};
+use whither::internals::Value;
+use whither::{ConditionallyMarkovSequence, Error, Predictor, Result, Scenario};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 const METHODS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
@@ -25,7 +26,8 @@ impl Subject for Predictor {
         match name {
             "observe" => {
                 let (time, position) = (number(&with["time"]).unwrap(), list(&with["position"]));
-                let noise = with.get("noise").map(value);
+                let noise = with.get("noise").map(|noise| whither::internals::noise(&value(noise), self.axes()));
+                let noise = noise.transpose()?;
                 match position.iter().copied().collect::<Option<Vec<f64>>>() {
                     Some(position) if noise.is_none() => self.observe(time, &position),
                     _ => self.observe_with(time, &position, noise.as_ref()),
@@ -34,10 +36,12 @@ impl Subject for Predictor {
             "arrival" => self.arrival(id).map(drop),
             "forecast" => self.forecast(number(&with["time"]).unwrap()).map(drop),
             "path" => self.path(id.unwrap(), &full(&with["times"])).map(drop),
-            "addDestination" => self.add_destination(&value(&with["destination"])),
-            "updateDestination" => self.update_destination(id.unwrap(), &value(&with["destination"])),
+            "addDestination" => whither::internals::add_destination(self, &value(&with["destination"])),
+            "updateDestination" => {
+                whither::internals::update_destination(self, id.unwrap(), &value(&with["destination"]))
+            }
             "removeDestination" => self.remove_destination(id.unwrap()),
-            "setDestinations" => self.set_destinations(&value(&with["destinations"])),
+            "setDestinations" => whither::internals::set_destinations(self, &value(&with["destinations"])),
             "chosen" => self.chosen(id.unwrap()),
             other => panic!("no call {other}"),
         }
@@ -88,7 +92,7 @@ fn full(json: &Json) -> Vec<f64> {
 fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
     let given = value(from);
     Ok(match base {
-        "scenario" | "pointing" => Box::new(Predictor::new(&Scenario::from_value(&given)?)),
+        "scenario" | "pointing" => Box::new(Predictor::new(&whither::internals::scenario(&given)?)),
         "snapshot" => Box::new(Predictor::restore(&given)?),
         "sequence" => Box::new(whither::internals::sequence(&given)?),
         "parameters" => Box::new(whither::internals::given_sequence(&given)?),
@@ -198,7 +202,7 @@ fn what_would_exhaust_the_memory_is_too_large() {
         };
         entries.retain(|(key, _)| key != "destinations");
         entries.push(("destinations".to_owned(), Value::List((0..count).map(each).collect())));
-        Scenario::from_value(&Value::Map(entries)).map_err(|error| shown(&error))
+        whither::internals::scenario(&Value::Map(entries)).map_err(|error| shown(&error))
     };
     let refused = |count, changes: Json| with(count, &changes).unwrap_err();
     assert_eq!(

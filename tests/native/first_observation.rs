@@ -133,7 +133,7 @@ fn destinations_that_come_later_have_it_too() {
         for predictor in [&mut all, &mut grown] {
             predictor.observe(0.0, &[3.0]).unwrap();
         }
-        grown.add_destination(&crate::support::value(&place("right", 5))).unwrap();
+        whither::internals::add_destination(&mut grown, &crate::support::value(&place("right", 5))).unwrap();
         for (time, position) in [(0.0, None), (0.25, Some(3.5)), (0.5, Some(4.0))] {
             for predictor in [&mut all, &mut grown] {
                 predictor.observe_with(time, &[position], None).unwrap();
@@ -206,6 +206,6 @@ fn the_fast_form_counts_it_as_the_dense_one() {
     }
 }
 
-fn coupled_noise() -> whither::Value {
-    crate::support::value(&json!([[4, 1], [1, 3]]))
+fn coupled_noise() -> whither::ObservationNoise {
+    whither::Matrix::from([[4.0, 1.0], [1.0, 3.0]]).into()
 }

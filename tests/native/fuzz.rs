@@ -8,8 +8,9 @@ use crate::support::value;
 use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
-use whither::{Gaussian, Predictor, Scenario, Value};
+use whither::internals::{Value, data};
+use whither::{Gaussian, Predictor};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 const CASES: u64 = 1500;
 
@@ -97,7 +98,7 @@ impl Draw {
                 height: draw.within(10.0, 90.0),
             };
             let targets: Vec<_> = (0..4).map(|i| target(i, self)).collect();
-            pointer_scenario(&targets, PointerOptions::default()).unwrap().to_value()
+            data(&pointer_scenario(&targets, PointerOptions::default()).unwrap())
         } else {
             let methods = [
                 "pseudoObservation",
@@ -171,6 +172,7 @@ impl Draw {
                     1 => Some(value(&json!(self.covariance(predictor.axes(), 1.0)))),
                     _ => None,
                 };
+                let noise = noise.map(|noise| whither::internals::noise(&noise, predictor.axes())).transpose()?;
                 predictor.observe_with(next, &position, noise.as_ref())?;
                 *time = next;
             }
@@ -181,12 +183,18 @@ impl Draw {
                 )?)
             }
             13 => drop(predictor.path(&id, &[*time, *time + self.within(-0.1, 3.0)])?),
-            14 => predictor.add_destination(&self.destination(predictor))?,
-            15 => predictor.update_destination(&id, &self.destination(predictor))?,
+            14 => {
+                let destination = self.destination(predictor);
+                whither::internals::add_destination(predictor, &destination)?;
+            }
+            15 => {
+                let destination = self.destination(predictor);
+                whither::internals::update_destination(predictor, &id, &destination)?;
+            }
             16 => predictor.remove_destination(&id)?,
             17 => {
                 let list = (0..1 + self.below(5)).map(|_| self.destination(predictor)).collect();
-                predictor.set_destinations(&Value::List(list))?;
+                whither::internals::set_destinations(predictor, &Value::List(list))?;
             }
             18 if self.chance(0.3) => predictor.reset(),
             19 => *predictor = predictor.clone(),
@@ -240,10 +248,10 @@ fn run(seed: u64) -> bool {
     let mut draw = Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     draw.unit();
     let scenario = draw.scenario();
-    let Ok(read) = Scenario::from_value(&scenario) else { return false };
+    let Ok(read) = whither::internals::scenario(&scenario) else { return false };
     let mut predictor = Predictor::new(&read);
-    let again = Scenario::from_value(&read.to_value()).expect("what was written is read");
-    assert_eq!(again.to_value(), read.to_value(), "a scenario written and read again");
+    let again = whither::internals::scenario(&data(&read)).expect("what was written is read");
+    assert_eq!(data(&again), data(&read), "a scenario written and read again");
     let mut time = draw.within(-5.0, 5.0);
     for _ in 0..4 + draw.below(25) {
         let before = predictor.snapshot();

@@ -2,10 +2,10 @@
 
 use crate::support::{predictor, value};
 use serde_json::json;
-use whither::math::random::Random;
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::internals::Random;
 use whither::study::{metrics::Score, simulate::Hand, track::Target};
-use whither::{Code, Predictor, Scenario};
+use whither::{Code, Predictor};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 fn scenario(learning: serde_json::Value) -> serde_json::Value {
     json!({
@@ -70,7 +70,11 @@ fn a_destination_added_again_has_its_count() {
     predictor.chosen("b").unwrap();
     let before = predictor.probabilities().to_vec();
     predictor.remove_destination("b").unwrap();
-    predictor.add_destination(&value(&json!({ "id": "b", "center": [5], "size": 1, "prior": 1 }))).unwrap();
+    whither::internals::add_destination(
+        &mut predictor,
+        &value(&json!({ "id": "b", "center": [5], "size": 1, "prior": 1 })),
+    )
+    .unwrap();
     let place = predictor.index_of("b").unwrap();
     assert!((predictor.probabilities()[place] - before[1]).abs() < 1e-12);
 }
@@ -121,7 +125,7 @@ fn bad_learning_is_named() {
         (json!({ "strength": 1, "forgetting": 1 }), "learning.forgetting: must be at least 0 and less than 1, got 1"),
         (json!({ "strength": 1, "last": 1 }), "learning.last: unknown key \"last\""),
     ] {
-        let error = Scenario::from_value(&value(&scenario(learning))).unwrap_err();
+        let error = whither::internals::scenario(&value(&scenario(learning))).unwrap_err();
         assert!(error.to_string().starts_with(expected), "{error}");
     }
 }
@@ -141,9 +145,11 @@ fn a_users_habits_are_worth_more_than_a_better_model_of_the_hand() {
         .map(|(i, t)| PointerTarget { id: i.to_string(), x: t.center[0], y: t.center[1], width: 96.0, height: 96.0 })
         .collect();
     let plain = pointer_scenario(&boxes, PointerOptions::default()).unwrap();
-    let whither::Value::Map(mut entries) = plain.to_value() else { panic!("a scenario is an object") };
+    let whither::internals::Value::Map(mut entries) = whither::internals::data(&plain) else {
+        panic!("a scenario is an object")
+    };
     entries.push(("learning".to_owned(), value(&json!({ "strength": 10, "forgetting": 0.01, "afterLast": 3 }))));
-    let learning = Scenario::from_value(&whither::Value::Map(entries)).unwrap();
+    let learning = whither::internals::scenario(&whither::internals::Value::Map(entries)).unwrap();
     let mut random = Random::new(11);
     let mut learner = Predictor::new(&learning);
     let (mut with, mut without) = (0.0, 0.0);

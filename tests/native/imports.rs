@@ -17,7 +17,7 @@ const RUST: [(&str, &[&str]); 16] = [
     ("likelihood", &["math", "model", "posterior", "engine", "likelihood"]),
     ("pointing", &["math", "model", "posterior", "engine", "pointing"]),
     ("scenario", &["math", "model", "engine", "likelihood", "pointing", "scenario"]),
-    ("pointer", &["scenario"]),
+    ("pointer", &["model", "pointing", "scenario"]),
     ("predictor", &["math", "model", "posterior", "engine", "likelihood", "scenario", "predictor"]),
     ("snapshot", &["model", "scenario", "predictor"]),
     ("study", &["math", "model", "likelihood", "pointing", "scenario", "predictor", "snapshot", "study"]),

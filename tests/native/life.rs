@@ -2,7 +2,8 @@
 
 use crate::support::{change, golden, predictor, relative, scenario_of, value};
 use serde_json::{Value as Json, json};
-use whither::{Code, Predictor, Value};
+use whither::internals::Value;
+use whither::{Code, Predictor};
 
 const METHODS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
@@ -96,7 +97,7 @@ type Edit = fn(&mut Predictor) -> whither::Result<()>;
 fn edits() -> [(Edit, Json); 5] {
     [
         (
-            |p| p.add_destination(&value(&corner("e", 7, 7, 1))),
+            |p| whither::internals::add_destination(p, &value(&corner("e", 7, 7, 1))),
             json!([
                 place("a", 10, 0),
                 corner("b", -10, 5, 2),
@@ -106,16 +107,27 @@ fn edits() -> [(Edit, Json); 5] {
             ]),
         ),
         (
-            |p| p.update_destination("c", &value(&corner("c", 2, 9, 3))),
+            |p| whither::internals::update_destination(p, "c", &value(&corner("c", 2, 9, 3))),
             json!([place("a", 10, 0), corner("b", -10, 5, 2), corner("c", 2, 9, 3), later("d", 4, 4)]),
         ),
         (
-            |p| p.update_destination("a", &value(&json!({ "center": [9, 1], "size": [2, 3], "endVelocity": 4 }))),
+            |p| {
+                whither::internals::update_destination(
+                    p,
+                    "a",
+                    &value(&json!({ "center": [9, 1], "size": [2, 3], "endVelocity": 4 })),
+                )
+            },
             json!([place("a", 9, 1), corner("b", -10, 5, 2), place("c", 3, -8), later("d", 4, 4)]),
         ),
         (|p| p.remove_destination("b"), json!([place("a", 10, 0), place("c", 3, -8), later("d", 4, 4)])),
         (
-            |p| p.set_destinations(&value(&json!([later("f", -5, -5), place("c", 3, -8), place("a", 11, 0)]))),
+            |p| {
+                whither::internals::set_destinations(
+                    p,
+                    &value(&json!([later("f", -5, -5), place("c", 3, -8), place("a", 11, 0)])),
+                )
+            },
             json!([later("f", -5, -5), place("c", 3, -8), place("a", 11, 0)]),
         ),
     ]
@@ -190,7 +202,8 @@ fn destinations_that_the_model_depends_on_can_be_removed_but_not_added() {
             predictor
         };
         let mut edited = start();
-        edited.set_destinations(&value(&json!([later("d", 4, 4), corner("a", 10, 0, 5)]))).unwrap();
+        whither::internals::set_destinations(&mut edited, &value(&json!([later("d", 4, 4), corner("a", 10, 0, 5)])))
+            .unwrap();
         let fewer = json!({ "/destinations": [later("d", 4, 4), corner("a", 10, 0, 5)] });
         let mut fresh = predictor(&change(&change(&scenario(method), &knowing), &fewer));
         follow(&mut fresh, &TRACK[..4]);
@@ -202,8 +215,8 @@ fn destinations_that_the_model_depends_on_can_be_removed_but_not_added() {
             }
         }
         for edit in [
-            |p: &mut Predictor| p.add_destination(&value(&corner("e", 7, 7, 1))),
-            |p: &mut Predictor| p.update_destination("a", &value(&corner("a", 7, 7, 1))),
+            |p: &mut Predictor| whither::internals::add_destination(p, &value(&corner("e", 7, 7, 1))),
+            |p: &mut Predictor| whither::internals::update_destination(p, "a", &value(&corner("a", 7, 7, 1))),
         ] {
             let mut refusing = start();
             let before = refusing.snapshot();
@@ -354,7 +367,7 @@ fn after_every_arrival_time_the_probabilities_stay() {
         let mut expired = predictor(&scenario(method));
         follow(&mut expired, &all);
         // an addition that expires with the others
-        expired.add_destination(&value(&place("e", -3, 3))).unwrap();
+        whither::internals::add_destination(&mut expired, &value(&place("e", -3, 3))).unwrap();
         let five =
             json!([place("a", 10, 0), corner("b", -10, 5, 2), place("c", 3, -8), later("d", 4, 4), place("e", -3, 3)]);
         let mut fresh = predictor(&change(&scenario(method), &json!({ "/destinations": five })));
@@ -364,16 +377,17 @@ fn after_every_arrival_time_the_probabilities_stay() {
         // one that can still be reached
         let reachable =
             json!({ "id": "f", "center": [3, -9], "size": 1, "arrival": { "type": "uniform", "from": 6, "to": 9 } });
-        expired.add_destination(&value(&reachable)).unwrap();
+        whither::internals::add_destination(&mut expired, &value(&reachable)).unwrap();
         assert!(!expired.expired());
         let best = expired.best().unwrap();
         assert_eq!(best.id, "f");
         let mut fresh = predictor(&change(&change(&scenario(method), &json!({ "/destinations": five })), &json!({})));
-        fresh.add_destination(&value(&reachable)).unwrap();
+        whither::internals::add_destination(&mut fresh, &value(&reachable)).unwrap();
         follow(&mut fresh, &all);
         assert!(relative(&outputs(&mut expired, 107.0), &outputs(&mut fresh, 107.0)) < 1e-12, "{method}");
         // and gone again: nothing can be reached, so nothing is known
-        expired.set_destinations(&value(&json!([place("a", 10, 0), place("c", 3, -8)]))).unwrap();
+        whither::internals::set_destinations(&mut expired, &value(&json!([place("a", 10, 0), place("c", 3, -8)])))
+            .unwrap();
         assert!(expired.expired());
         let rest = 1.0 - expired.none();
         assert!(expired.probabilities().iter().all(|p| (p - 0.5 * rest).abs() < 1e-15), "{method}");

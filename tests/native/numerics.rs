@@ -3,8 +3,8 @@
 use crate::support::predictor;
 use nalgebra::DMatrix;
 use serde_json::{Value as Json, json};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Gaussian, Predictor};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 /// A reproducible number in [-1, 1).
 struct Noise(u64);

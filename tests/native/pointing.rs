@@ -3,8 +3,9 @@
 use crate::problem::Draw;
 use crate::support::{golden, numbers, predictor, relative, value};
 use serde_json::{Value as Json, json};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
-use whither::{Predictor, Scenario};
+use whither::Predictor;
+use whither::internals::data;
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 fn observations(case: &Json) -> Vec<Vec<f64>> {
     case["observations"].as_array().unwrap().iter().map(numbers).collect()
@@ -94,18 +95,18 @@ fn destinations_are_added_moved_and_removed_in_mid_movement() {
     for (k, (time, position)) in way.iter().enumerate() {
         growing.observe(*time, position).unwrap();
         if k == 10 {
-            growing.update_destination("t3", &value(&all[3])).unwrap();
+            whither::internals::update_destination(&mut growing, "t3", &value(&all[3])).unwrap();
             growing.remove_destination("extra").unwrap();
-            growing.add_destination(&value(&all[4])).unwrap();
+            whither::internals::add_destination(&mut growing, &value(&all[4])).unwrap();
             for destination in &all[20..] {
-                growing.add_destination(&value(destination)).unwrap();
+                whither::internals::add_destination(&mut growing, &value(destination)).unwrap();
             }
         }
     }
     let place: Vec<usize> = (0..all.len()).map(|i| growing.index_of(&format!("t{i}")).unwrap()).collect();
     let found: Vec<f64> = place.iter().map(|&i| growing.probabilities()[i]).collect();
     assert!(relative(&found, full.probabilities()) < 1e-12);
-    growing.set_destinations(&value(&case["scenario"]["destinations"])).unwrap();
+    whither::internals::set_destinations(&mut growing, &value(&case["scenario"]["destinations"])).unwrap();
     assert!(relative(growing.probabilities(), full.probabilities()) < 1e-12);
 }
 
@@ -179,7 +180,7 @@ fn a_missing_axis_leaves_the_other_one_informed() {
         predictor.observe_with(row[0], &[Some(row[1]), y], None).unwrap();
     }
     assert_eq!(predictor.best().unwrap().index, case["true"].as_u64().unwrap() as usize);
-    let deaf = value(&json!([1000.0, 0.5]));
+    let deaf = [1000.0, 0.5].into();
     let last = &way[way.len() - 1];
     let before = predictor.state().unwrap().mean[0];
     predictor.observe_with(last[0] + 0.01, &[Some(9000.0), Some(last[2])], Some(&deaf)).unwrap();
@@ -188,9 +189,9 @@ fn a_missing_axis_leaves_the_other_one_informed() {
 
 #[test]
 fn a_scenario_is_written_as_it_was_read() {
-    let scenario = Scenario::from_value(&value(&golden("pointing-sizes40")["scenario"])).unwrap();
-    let again = Scenario::from_value(&scenario.to_value()).unwrap();
-    assert_eq!(again.to_value(), scenario.to_value());
+    let scenario = whither::internals::scenario(&value(&golden("pointing-sizes40")["scenario"])).unwrap();
+    let again = whither::internals::scenario(&data(&scenario)).unwrap();
+    assert_eq!(data(&again), data(&scenario));
 }
 
 #[test]
@@ -263,8 +264,7 @@ fn the_hot_loop_agrees_with_one_destination_at_a_time() {
             &[PointerTarget { id: "a".to_owned(), x: 0.0, y: 0.0, width: 50.0, height: 50.0 }],
             PointerOptions::default(),
         )
-        .unwrap()
-        .to_value(),
+        .unwrap(),
     )
     .unwrap();
     let mut worst = 0.0f64;
@@ -318,8 +318,7 @@ fn directions_may_be_as_wide_and_as_narrow_as_numbers_are() {
             }),
             PointerOptions::default(),
         )
-        .unwrap()
-        .to_value(),
+        .unwrap(),
     )
     .unwrap();
     for (core, wide, size) in [(1e-50, 1e-50, 50.0), (1e-50, 1e50, 50.0), (1e50, 1e50, 50.0), (0.1, 0.5, 1e50)] {

@@ -4,8 +4,8 @@ use crate::problem::{Draw, random};
 use crate::support::predictor;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
 use whither::{Code, Predictor};
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 /// Seven by three icons of 80, 120 apart.
 fn icons() -> Vec<PointerTarget> {
@@ -104,7 +104,7 @@ proptest! {
             time += draw.within(0.002, 0.1);
         }
         let (mut all, mut alone) = (pointer(none), pointer(none));
-        let noise = |k: usize| (k % 3 == 1).then(|| crate::support::value(&json!([1.5, 2.0])));
+        let noise = |k: usize| (k % 3 == 1).then(|| whither::ObservationNoise::from([1.5, 2.0]));
         for (k, (time, place)) in samples.iter().enumerate() {
             all.observe_with(*time, &place.map(Some), noise(k % 2).as_ref()).unwrap();
             if k == restored_at {
@@ -168,7 +168,7 @@ fn the_papers_methods_count_equal_times_as_observations() {
     let (mut twice, mut once) = (predictor(&scenario(2.0)), predictor(&scenario(2f64.sqrt())));
     // of the first time the default counts nothing but what comes after the first observation
     once.observe(0.0, &[0.0]).unwrap();
-    twice.observe_with(0.0, &[Some(0.0)], Some(&crate::support::value(&json!(2f64.sqrt())))).unwrap();
+    twice.observe_with(0.0, &[Some(0.0)], Some(&2f64.sqrt().into())).unwrap();
     for (time, place) in [(0.4, 3.0), (0.9, 4.0)] {
         once.observe(time, &[place]).unwrap();
         twice.observe(time, &[place]).unwrap();

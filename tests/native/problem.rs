@@ -5,7 +5,7 @@ use crate::support::{relative, value};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::{Value as Json, json};
-use whither::{Predictor, Scenario};
+use whither::Predictor;
 
 /// A random problem, drawn from a seed: proptest shrinks the choices, the seed fills in the numbers.
 #[derive(Clone, Debug)]
@@ -218,7 +218,7 @@ impl Problem {
         if method == "singleFilterApproximate" {
             scenario["none"] = json!(0);
         }
-        Predictor::new(&Scenario::from_value(&value(&scenario)).unwrap())
+        Predictor::new(&whither::internals::scenario(&value(&scenario)).unwrap())
     }
 
     pub fn followed(&self, method: &str) -> Predictor {
@@ -248,6 +248,8 @@ pub fn apart(problem: &Problem, family: &[&str]) -> f64 {
 
 impl Observed {
     pub fn by(&self, predictor: &mut Predictor) {
-        predictor.observe_with(self.time, &self.position, self.noise.as_ref().map(value).as_ref()).unwrap();
+        let noise =
+            self.noise.as_ref().map(|noise| whither::internals::noise(&value(noise), self.position.len()).unwrap());
+        predictor.observe_with(self.time, &self.position, noise.as_ref()).unwrap();
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::sequence;
 use serde_json::{Value as Json, json};
-use whither::conditionally_markov::DEFAULT_TOLERANCE;
+use whither::internals::DEFAULT_TOLERANCE;
 
 /// Rezaie and Li, section IV; state order: positions, then velocities.
 fn airliner(mean: &[f64], covariance: &[Vec<f64>]) -> Json {

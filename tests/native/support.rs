@@ -2,7 +2,8 @@
 
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
-use whither::{ConditionallyMarkovSequence, Predictor, Scenario, Value};
+use whither::internals::Value;
+use whither::{ConditionallyMarkovSequence, Predictor};
 
 /// What a file in `tests/` holds.
 pub fn read(path: &str) -> Json {
@@ -60,7 +61,7 @@ pub fn value(json: &Json) -> Value {
 
 /// A predictor from JSON.
 pub fn predictor(scenario: &Json) -> Predictor {
-    Predictor::new(&Scenario::from_value(&value(scenario)).unwrap())
+    Predictor::new(&whither::internals::scenario(&value(scenario)).unwrap())
 }
 
 /// A sequence from JSON.

@@ -4,7 +4,7 @@ use crate::node::{Result, at, globals, json, parts, plain};
 use crate::support::{golden, numbers, predictor, read, rows, scenario_of, sequence};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
-use whither::conditionally_markov::DEFAULT_TOLERANCE;
+use whither::internals::DEFAULT_TOLERANCE;
 use whither::wasm::{Engine, SequenceEngine, pointer_scenario};
 use whither::{Gaussian, Predictor};
 
@@ -62,7 +62,7 @@ fn an_observation_in_full_may_lack_an_axis_and_have_a_noise_of_its_own() {
     let (mut engine, mut predictor, case) = moved("pseudoObservation");
     let time = 0.1 + rows(&case["observations"]).last().unwrap()[0];
     good(engine.observe_in_full(plain(&json!({ "time": time, "position": [null, 0.5], "noise": 0.2 }))));
-    let noise = crate::support::value(&json!(0.2));
+    let noise = 0.2.into();
     predictor.observe_with(time, &[None, Some(0.5)], Some(&noise)).unwrap();
     assert_eq!(at(engine.probabilities(), engine.len()), predictor.probabilities());
 }
@@ -78,7 +78,7 @@ fn destinations_are_added_moved_and_removed() {
     good(engine.remove_destination(plain(&json!({ "id": "d0" }))));
     let mut left = case["destinations"].as_array().unwrap()[1..].to_vec();
     left.push(moved);
-    predictor.set_destinations(&crate::support::value(&json!(left))).unwrap();
+    whither::internals::set_destinations(&mut predictor, &crate::support::value(&json!(left))).unwrap();
     let probabilities = at(engine.probabilities(), engine.len());
     let difference = crate::support::relative(&probabilities, predictor.probabilities());
     assert!(difference < 1e-12, "{difference:e}");

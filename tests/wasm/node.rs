@@ -4,7 +4,7 @@ use js_sys::{Array, Float64Array, Function, JSON, Object, Reflect, WebAssembly};
 use serde_json::Value as Json;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
-use whither::Value;
+use whither::internals::Value;
 use whither::wasm::WhitherError;
 
 /// What everything at the boundary that can fail returns.

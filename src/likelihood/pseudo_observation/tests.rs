@@ -7,7 +7,7 @@ use crate::likelihood::configuration::Configuration;
 use crate::likelihood::stepwise::Stepwise;
 use crate::math::random::Random;
 use crate::posterior::Posterior;
-use crate::scenario::Engine as Choice;
+use crate::scenario::Setup;
 use crate::{Predictor, Scenario};
 use nalgebra::DMatrix;
 use serde_json::{Value as Json, json};
@@ -143,7 +143,7 @@ fn compare(json: &Json, random: &mut Random, worst: &mut Difference) {
     };
     let first = observe(&position, random);
     let first = scenario.initial.posterior(model, &model.measurement(&first, None).unwrap()).unwrap();
-    let Choice::Papers { arrival, quadrature, .. } = &scenario.engine else { panic!() };
+    let Setup::Papers { arrival, quadrature, .. } = &scenario.setup else { panic!() };
     let configuration = || Configuration {
         motion: scenario.motion.clone(),
         method: Method::PseudoObservation,

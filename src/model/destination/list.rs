@@ -2,7 +2,7 @@
 
 use super::{Destination, Endpoint, EndpointClass};
 use crate::error::{Code, Error, Result};
-use crate::value::{Node, Path, Value, number, quote};
+use crate::value::{Path, Value, number, quote};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -31,25 +31,7 @@ impl Destinations {
     /// Those of [`Destination`], at `destinations[i]`; `no-destinations`, `duplicate-id`, `too-large`, and `out-of-range` where no
     /// prior is above zero.
     pub fn new(list: Vec<Destination>, dimensions: usize, states: usize) -> Result<Self> {
-        Self::collect(&Path::root("destinations"), list.into_iter().map(Ok), dimensions, states)
-    }
-
-    /// Reads a list of them.
-    ///
-    /// # Errors
-    /// As [`Destinations::new`], and those of reading.
-    pub fn read(node: &Node<'_>, dimensions: usize, states: usize) -> Result<Self> {
-        let items = node.items()?;
-        Self::collect(node.place(), items.map(|item| Destination::read(&item, dimensions)), dimensions, states)
-    }
-
-    fn collect(
-        path: &Path<'_>,
-        list: impl ExactSizeIterator<Item = Result<Destination>>,
-        dimensions: usize,
-        states: usize,
-    ) -> Result<Self> {
-        let count = list.len();
+        let (path, count) = (&Path::root("destinations"), list.len());
         if count == 0 {
             let message = "must have at least one destination, has none";
             return Err(Error::new(Code::NoDestinations, path.to_string(), message));
@@ -66,9 +48,8 @@ impl Destinations {
             priors: Vec::with_capacity(count),
         };
         let mut classes: HashMap<Vec<u64>, u32> = HashMap::new();
-        for (i, destination) in list.enumerate() {
+        for (i, destination) in list.into_iter().enumerate() {
             let path = path.index(i);
-            let destination = destination?;
             all.ids.push_str(&destination.id);
             let (mut endpoint, class) = destination.check(&path, dimensions, states)?;
             endpoint.id_end = all.ids.len();

@@ -97,6 +97,7 @@ fn what_is_read_is_written_again() {
     let text = r#"[{"id":"a","center":[1,2],"size":[3,4],"endVelocity":5,"prior":1},
         {"id":"b","mean":[1,2],"covariance":[[1,0],[0,2]],"prior":3,"arrival":{"type":"uniform","from":1,"to":2}}]"#;
     let value: Value = serde_json::from_str(text).unwrap();
-    let destinations = Destinations::read(&Node::root(&value, "destinations"), 2, 4).unwrap();
+    let destinations =
+        Destinations::new(Destination::read_all(&Node::root(&value, "destinations"), 2).unwrap(), 2, 4).unwrap();
     assert_eq!(destinations.to_value(), value);
 }

@@ -2,12 +2,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use serde_json::json;
-use whither::math::gaussian::{Gaussian, condition};
-use whither::math::random::Random;
-use whither::model::bridge::Bridge;
-use whither::model::endpoint::Endpoint;
-use whither::model::motion::MotionModel;
-use whither::scenario::Engine;
+use whither::Gaussian;
+use whither::internals::Bridge;
+use whither::internals::Endpoint;
+use whither::internals::MotionModel;
+use whither::internals::Random;
+use whither::internals::condition;
+use whither::internals::{Parts, parts};
 use whither::{Predictor, Scenario};
 
 /// A scenario with a prior of everything: four destinations, constant velocity in the plane.
@@ -68,12 +69,13 @@ fn drawn(random: &mut Random, mean: &DVector<f64>, covariance: &DMatrix<f64>) ->
 
 /// One track with this many observations, all before the arrival.
 pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Random) -> Track {
-    let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { unreachable!() };
-    let destination = categorical(random, scenario.destinations.priors().iter().copied());
+    let Parts { motion, observation, destinations, arrival } = parts(scenario);
+    let (arrival, quadrature) = arrival.expect("a method of the papers");
+    let destination = categorical(random, destinations.priors().iter().copied());
     let grid = arrival.grid(quadrature, 0.0, 1.0);
     let arrives = grid.times[categorical(random, grid.log_weights.iter().map(|log| log.exp()))];
-    let motion = scenario.motion.candidates[0].model.as_ref();
-    let noise = scenario.observation.noise();
+    let motion = motion.candidates[0].model.as_ref();
+    let noise = observation.noise();
 
     let before = Gaussian {
         mean: DVector::from_column_slice(&[0.0, 0.0, 1.0, 0.0]),
@@ -83,8 +85,7 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
     let observe = |state: &DVector<f64>, random: &mut Random| drawn(random, &(&matrix * state), noise);
     let first = drawn(random, &before.mean, &before.covariance);
     let first_observed = observe(&first, random);
-    let (mean, spread) =
-        (scenario.destinations.mean(destination), &scenario.destinations.class(destination).covariance());
+    let (mean, spread) = (destinations.mean(destination), &destinations.class(destination).covariance());
     let target = DVector::from_vec(mean);
     let (mut state, end) = match family {
         Family::Independent => (first, drawn(random, &target, spread)),

@@ -5,9 +5,10 @@ use crate::methods::Template;
 use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
+use whither::Predictor;
+use whither::internals::Value;
 use whither::study::metrics::{BINS, Bin, calibration_error};
 use whither::study::track::Track;
-use whither::{Predictor, Scenario};
 
 /// The priors of "none" that are tried.
 pub const PRIORS: [f64; 2] = [0.2, 0.5];
@@ -60,8 +61,12 @@ pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -
         shown.targets.remove(track.target);
     }
     for (result, prior) in results.none.iter_mut().zip(PRIORS) {
-        let mut scenario: Scenario = shown.scenario(&template.scenario, &template.extra).map_err(message)?;
-        scenario.none = prior;
+        let mut with_none = template.scenario.clone();
+        if let Value::Map(entries) = &mut with_none {
+            entries.retain(|(key, _)| key != "none");
+            entries.push(("none".to_owned(), Value::Number(prior)));
+        }
+        let scenario = shown.scenario(&with_none, &template.extra).map_err(message)?;
         let mut predictor = Predictor::new(&scenario);
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {

@@ -4,11 +4,12 @@ use crate::methods::Template;
 use presentation::table;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
-use whither::math::random::Random;
+use whither::internals::Random;
+use whither::internals::Value;
 use whither::study::metrics::Score;
 use whither::study::simulate::Hand;
 use whither::study::track::{Target, Track};
-use whither::{Predictor, Scenario, Value};
+use whither::{Predictor, Scenario};
 
 /// In how many cases of ten the next target follows from the last one; else it is any.
 const HABITS: [usize; 4] = [0, 3, 6, 9];

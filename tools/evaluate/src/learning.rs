@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use whither::internals::Node;
 use whither::study::fit::{Options, TRACKS_PER_CONSTANT, fit};
 use whither::study::metrics::{Score, bootstrap};
 use whither::study::track::Track;
-use whither::value::Node;
 
 /// What is learnt from one user's own movements: two constants need no more than twenty of them.
 const OWN: [&str; 2] = ["pointing.timeToGo.median", "pointing.power.to"];

@@ -3,10 +3,10 @@
 use crate::foresight::Foresight;
 use crate::peers::Peer;
 use std::path::Path;
-use whither::Value;
-use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::internals::Value;
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
+use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 /// One row of the tables.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ impl Template {
 
     fn parse(text: &str) -> Result<Self, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        let node = whither::value::Node::root(&value, "");
+        let node = whither::internals::Node::root(&value, "");
         let fields = node.fields(&["name", "scenario", "destination", "margin"]).map_err(|error| error.to_string())?;
         let required = |key: &'static str| fields.required(key).map_err(|error| error.to_string());
         Ok(Self {
@@ -71,7 +71,7 @@ impl Template {
         let scenario = pointer_scenario(&[any], PointerOptions::default()).map_err(|error| error.to_string())?;
         Ok(Self {
             name: "whither, pointing model".to_owned(),
-            scenario: scenario.to_value(),
+            scenario: whither::internals::data(&scenario),
             extra: Value::Null,
             margin: 0.0,
         })

@@ -7,7 +7,7 @@ use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::Path;
-use whither::Value;
+use whither::internals::Value;
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
 

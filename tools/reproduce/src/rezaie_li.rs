@@ -4,7 +4,8 @@ use crate::report::{Chapter, Exhibit};
 use crate::{Effort, random};
 use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
 use serde_json::json;
-use whither::{ConditionallyMarkovSequence, Value};
+use whither::ConditionallyMarkovSequence;
+use whither::internals::Value;
 
 pub const STEPS: usize = 100;
 /// Measurements are used up to this step.

@@ -3,23 +3,24 @@
 
 use crate::movement::Movement;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix};
-use whither::math::gaussian::{Gaussian, condition, propagate};
-use whither::model::bridge::Bridge;
-use whither::scenario::Engine;
+use whither::Gaussian;
+use whither::internals::Bridge;
+use whither::internals::{Parts, condition, parts, propagate};
 use whither::{Predictor, Scenario};
 
 /// The mean distances after each observation but the first, averaged over destinations and arrival times: original and
 /// Algorithm 1, original and Algorithm 2, Algorithm 1 and Algorithm 2.
 pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
-    let motion = scenario.motion.candidates[0].model.as_ref();
-    let (s, count) = (motion.states(), scenario.destinations.len());
-    let Engine::Papers { arrival, quadrature, .. } = &scenario.engine else { return Vec::new() };
+    let Parts { motion, observation, destinations, arrival } = parts(scenario);
+    let Some((arrival, quadrature)) = arrival else { return Vec::new() };
+    let motion = motion.candidates[0].model.as_ref();
+    let (s, count) = (motion.states(), destinations.len());
     let arrival = arrival.grid(quadrature, 0.0, 0.0);
     let first = first_posterior(scenario, movement);
-    let noise = scenario.observation.noise().clone();
+    let noise = observation.noise().clone();
     let observation = DMatrix::from_fn(noise.nrows(), s, |i, j| f64::from(u8::from(i == j)));
-    let extent = scenario.destinations.classes()[0].covariance();
-    let end = |i: usize| DVector::from_vec(scenario.destinations.mean(i));
+    let extent = destinations.classes()[0].covariance();
+    let end = |i: usize| DVector::from_vec(destinations.mean(i));
     let start_time = movement.observations[0].0;
     let mut state = first.clone();
     let mut bridged: Vec<Vec<Gaussian>> =

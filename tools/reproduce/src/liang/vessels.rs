@@ -6,7 +6,8 @@ use crate::report::{Exhibit, Table};
 use crate::{Effort, random};
 use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke, chart};
 use serde_json::json;
-use whither::{Scenario, Value};
+use whither::Scenario;
+use whither::internals::Value;
 
 /// The harbours' centres in metres, around a bay; not in the paper.
 pub const HARBOURS: [[f64; 2]; 6] = [
