@@ -13,11 +13,11 @@ import { during } from "./stage.mjs";
 const target = "wasm32-unknown-unknown";
 const generated = "js/generated";
 
-/** Each module: its name, the features that make it, and the name of its bytes. */
+/** Each module: its name, the features and the profile that make it, and the name of its bytes. */
 export const modules = [
-  { name: "whither", features: ["wasm"], bytes: "bytes" },
-  { name: "pointing", features: ["wasm"], bytes: "pointing-bytes" },
-  { name: "study", features: ["wasm-fit"], bytes: "study-bytes" },
+  { name: "whither", features: ["wasm"], profile: "wasm", bytes: "bytes" },
+  { name: "pointing", features: ["wasm-pointing"], profile: "wasm-pointing", bytes: "pointing-bytes" },
+  { name: "study", features: ["wasm-fit"], profile: "wasm", bytes: "study-bytes" },
 ];
 
 /** What the engine must have, as wasm-opt names it: what rustc emits by default, and SIMD. */
@@ -40,7 +40,7 @@ export async function buildWasm({ dev = false } = {}) {
   // Cargo by itself would compile all at every call, since they have the same output path.
   const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
   await incremental("wasm-modules", { inputs: sources, outputs: compiled, variant, doing: null }, async () => {
-    for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : "wasm");
+    for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : module.profile);
   });
   const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [

@@ -23,6 +23,8 @@ const parts = {
     await check("cargo", ["clippy", ...packages, "--all-targets", "--", "-D", "warnings"]);
     const boundary = ["--features", "wasm,wasm-fit", "--lib", "--test", "wasm"];
     await check("cargo", ["clippy", ...wasmTarget, ...boundary, "--", "-D", "warnings"]);
+    const pointing = ["--features", "wasm-pointing", "--lib"];
+    await check("cargo", ["clippy", ...wasmTarget, ...pointing, "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
     await tests("cargo", ["test", "--package", "whither", "--features", "fit"]);
     await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);

@@ -44,7 +44,7 @@
 //! | feature | what | by default |
 //! |---|---|---|
 //! | `fit` | [`study`]'s learning of a scenario's constants from recorded movements | off |
-//! | `wasm`, `wasm-fit` | the classes of the npm package, for its own build | off |
+//! | `wasm`, `wasm-fit`, `wasm-pointing` | the classes of the npm package, for its own build | off |
 //!
 //! # Units
 //!
@@ -108,7 +108,7 @@
 pub mod conditionally_markov;
 pub mod error;
 pub mod value;
-#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
+#[cfg(any(feature = "wasm", feature = "wasm-fit", feature = "wasm-pointing"))]
 #[doc(hidden)]
 pub mod wasm;
 

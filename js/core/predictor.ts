@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { WhitherError } from "#error";
 import type { Best } from "./best.js";
+import { copyInto } from "./copy.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./loading/instance.js";
 import { dispose, freed } from "./lifetime.js";
@@ -148,7 +149,7 @@ export class Predictor {
    */
   probabilities(into?: Float64Array): Float64Array {
     const engine = this.#live();
-    return copy(this.#viewAt(engine, engine.probabilities()), into);
+    return copyInto(this.#viewAt(engine, engine.probabilities()), into);
   }
 
   /** The probability that the object goes to none of the destinations: 0 unless the scenario has a `none`. */
@@ -172,7 +173,7 @@ export class Predictor {
    */
   logLikelihoods(into?: Float64Array): Float64Array {
     const engine = this.#live();
-    return copy(this.#viewAt(engine, engine.log_likelihoods()), into);
+    return copyInto(this.#viewAt(engine, engine.log_likelihoods()), into);
   }
 
   /**
@@ -400,16 +401,4 @@ export class Predictor {
 
 function adopt(engine: unknown): Predictor {
   return new Predictor(engine as Scenario);
-}
-
-function copy(numbers: Float64Array, into: Float64Array | undefined): Float64Array {
-  if (into === undefined) return numbers.slice();
-  if (!ArrayBuffer.isView(into) || into[Symbol.toStringTag] !== "Float64Array") {
-    throw new WhitherError("wrong-type", "into", "must be a Float64Array");
-  }
-  if (into.length !== numbers.length) {
-    throw new WhitherError("wrong-length", "into", `must have ${numbers.length} numbers, has ${into.length}`);
-  }
-  into.set(numbers);
-  return into;
 }

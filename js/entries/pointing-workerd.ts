@@ -4,5 +4,4 @@
  * @module
  */
 export { init, type InitOptions } from "../core/loading/imported.js";
-export * from "../core/exports.js";
-export * from "../pointing/scenario.js";
+export * from "../pointing/exports.js";

@@ -4,7 +4,7 @@
 //! places one time, and of those the last is where the pointer was then. So the course keeps how it stood before the last one.
 
 use super::parameters::Parameters;
-use super::{Vector, dot, minus, vector};
+use super::{Space, Vector, dot, minus, vector};
 use crate::error::Result;
 use crate::math::kernel::mixture::AXES;
 use crate::math::small_gaussian::axis_filter::{AxisFilter, AxisFilters, Step};
@@ -113,8 +113,8 @@ impl Onset {
 
 /// The movement so far, without regard to the destinations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
-    dimensions: usize,
+pub(crate) struct Course<S> {
+    space: S,
     /// The first observed position `y_1`.
     pub start: Vector,
     /// `t_k - t_1`.
@@ -131,21 +131,20 @@ pub struct Course {
     before: Before,
 }
 
-impl Course {
+impl<S: Space> Course<S> {
     /// Begins at the first observation, of variance `variances` in each axis.
     #[must_use]
-    pub fn begin(parameters: &Parameters, position: &[f64], variances: &[f64]) -> Self {
+    pub fn begin(space: S, parameters: &Parameters, position: &[f64], variances: &[f64]) -> Self {
         let mut start = Vector::default();
         let mut axes = [begin(0.0, 0.0, 0.0); AXES];
         for (j, (&y, &variance)) in position.iter().zip(variances).enumerate().take(3) {
             start[j] = y;
             axes[j] = begin(y, variance, parameters.first_speed[j].powi(2));
         }
-        let dimensions = position.len().min(3);
-        let axes = axes_of(dimensions, axes);
+        let axes = axes_of(space.dimensions(), axes);
         let last = Observed { position: vector(position).map(Some), variances: vector(variances) };
         Self {
-            dimensions,
+            space,
             start,
             elapsed: 0.0,
             farthest: 0.0,
@@ -159,12 +158,12 @@ impl Course {
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
     /// of the last one it replaces that, in the axes that it has, and at the first time the movement begins with it.
     pub fn advance(&mut self, parameters: &Parameters, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
-        let (observed, d) = (Observed::new(position, variances), self.dimensions);
+        let (observed, d) = (Observed::new(position, variances), self.dimensions());
         if elapsed == self.elapsed {
             self.last = observed.or(&self.last);
             if self.observations < 2 {
                 let position = self.last.position.map(|axis| axis.unwrap_or(0.0));
-                *self = Self::begin(parameters, &position[..d], &self.last.variances);
+                *self = Self::begin(self.space, parameters, &position[..d], &self.last.variances);
                 return;
             }
             Before { elapsed: self.elapsed, farthest: self.farthest, axes: self.axes } = self.before;
@@ -200,10 +199,16 @@ impl Course {
         if way >= expected { Onset::BEGUN } else { Onset { shortfall: expected - way, share: way / expected } }
     }
 
+    /// The space of the movement.
+    #[must_use]
+    pub fn space(&self) -> S {
+        self.space
+    }
+
     /// Spatial dimensions.
     #[must_use]
-    pub const fn dimensions(&self) -> usize {
-        self.dimensions
+    pub fn dimensions(&self) -> usize {
+        self.space.dimensions()
     }
 
     /// The position now.
@@ -229,7 +234,7 @@ impl Course {
     /// What a snapshot keeps.
     #[must_use]
     pub fn save(&self) -> Value {
-        let d = self.dimensions;
+        let d = self.dimensions();
         let mut numbers = self.start[..d].to_vec();
         numbers.extend(self.last.position[..d].iter().map(|axis| axis.unwrap_or(f64::NAN)));
         numbers.extend(&self.last.variances[..d]);
@@ -250,8 +255,8 @@ impl Course {
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        let (d, each) = (dimensions, 20 * dimensions);
+    pub fn load(node: &Node<'_>, space: S) -> Result<Self> {
+        let (d, each) = (space.dimensions(), 20 * space.dimensions());
         let fields = node.fields(&["elapsed", "observations", "axes"])?;
         let numbers = fields.required("axes")?.exact_numbers(3 * (d + 1) + 2 * each)?;
         let axes = load_axes(d, &numbers[3 * (d + 1)..][..each]);
@@ -263,7 +268,7 @@ impl Course {
             *axis = (!number.is_nan()).then_some(number);
         }
         Ok(Self {
-            dimensions,
+            space,
             start: vector(&numbers[..d]),
             elapsed: fields.required("elapsed")?.exact()?,
             observations: fields.positive("observations")? as u64,

@@ -11,7 +11,7 @@
 use super::course::Course;
 use super::parameters::{Parameters, TimeToGo};
 use super::targets::Extent;
-use super::{Symmetric, Vector, dot, minus};
+use super::{Space, Symmetric, Vector, dot, minus};
 use crate::math::gaussian::LN_2_PI;
 use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
@@ -33,8 +33,8 @@ pub struct Pair {
 
 /// The pairs one at a time, for all that is not asked of every destination after every observation.
 #[derive(Clone, Debug)]
-pub struct Pairs {
-    dimensions: usize,
+pub(crate) struct Pairs<S> {
+    space: S,
     position: Vector,
     /// Scale by scale.
     pub list: Vec<Pair>,
@@ -51,8 +51,8 @@ struct Together {
 
 /// All pairs as they stand after an observation.
 #[derive(Clone, Debug)]
-pub struct Nodes {
-    dimensions: usize,
+pub(crate) struct Nodes<S> {
+    space: S,
     position: Vector,
     velocity: Vector,
     /// How many times to go there are.
@@ -70,10 +70,10 @@ pub struct Nodes {
     pairs: Vec<Together>,
 }
 
-impl Nodes {
+impl<S: Space> Nodes<S> {
     /// The pairs after the latest observation.
     #[must_use]
-    pub fn new(parameters: &Parameters, course: &Course) -> Self {
+    pub fn new(parameters: &Parameters, course: &Course<S>) -> Self {
         let TimeToGo { to, points, median, .. } = parameters.time_to_go;
         let mut times = parameters.time_to_go.nodes();
         let mut log_times: Vec<f64> = times.iter().map(|time| (time / median).ln()).collect();
@@ -83,15 +83,15 @@ impl Nodes {
         log_times.resize(length, 0.0);
         ones.resize(length, 0.0);
         let pairs = vec![Together::default(); parameters.scales.len() * length / WIDTH];
-        let (dimensions, position, velocity) = (course.dimensions(), course.position(), course.velocity());
+        let (space, position, velocity) = (course.space(), course.position(), course.velocity());
         let (weights, noises) = (ones.clone(), vec![[0.0; 2]; parameters.scales.len()]);
-        let mut nodes = Self { dimensions, position, velocity, points, times, log_times, ones, weights, noises, pairs };
+        let mut nodes = Self { space, position, velocity, points, times, log_times, ones, weights, noises, pairs };
         nodes.refresh(parameters, course);
         nodes
     }
 
     /// The pairs after one more observation.
-    pub fn refresh(&mut self, parameters: &Parameters, course: &Course) {
+    pub fn refresh(&mut self, parameters: &Parameters, course: &Course<S>) {
         let s = Lanes::splat;
         let speed = course.speed();
         (self.position, self.velocity) = (course.position(), course.velocity());
@@ -106,30 +106,32 @@ impl Nodes {
                 let time = Lanes::load(times);
                 (Lanes::load(weights) * s(each)).store(&mut pairs.weight);
                 let [xx, xy, yy, xz, yz, zz] = spread(noise, &self.velocity, time * time * time * s(1.0 / 3.0));
-                let [a, b, c, d, e, f] = &mut pairs.covariance;
+                let ([a, b, c, d, e, f], [x, y, z]) = (&mut pairs.covariance, &mut pairs.end);
+                let end = |axis: usize| s(self.position[axis]) + time * s(self.velocity[axis]);
                 (xx + grown(course, 0, time)).store(a);
                 xy.store(b);
                 (yy + grown(course, 1, time)).store(c);
-                xz.store(d);
-                yz.store(e);
-                (zz + grown(course, 2, time)).store(f);
-                let [x, y, z] = &mut pairs.end;
-                (s(self.position[0]) + time * s(self.velocity[0])).store(x);
-                (s(self.position[1]) + time * s(self.velocity[1])).store(y);
-                (s(self.position[2]) + time * s(self.velocity[2])).store(z);
+                end(0).store(x);
+                end(1).store(y);
+                if self.space.dimensions() > 2 {
+                    xz.store(d);
+                    yz.store(e);
+                    (zz + grown(course, 2, time)).store(f);
+                    end(2).store(z);
+                }
             }
         }
     }
 
     /// Dimensions.
     #[must_use]
-    pub const fn dimensions(&self) -> usize {
-        self.dimensions
+    pub fn dimensions(&self) -> usize {
+        self.space.dimensions()
     }
 
     /// The pairs, scale by scale.
     #[must_use]
-    pub fn pairs(&self) -> Pairs {
+    pub fn pairs(&self) -> Pairs<S> {
         let mut list = Vec::with_capacity(self.noises.len() * self.points);
         for (noise, pairs) in self.noises.iter().zip(self.pairs.chunks(self.times.len().max(WIDTH) / WIDTH)) {
             for node in 0..self.points {
@@ -145,18 +147,18 @@ impl Nodes {
                 });
             }
         }
-        Pairs { dimensions: self.dimensions, position: self.position, list }
+        Pairs { space: self.space, position: self.position, list }
     }
 
     /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
     pub fn shared_densities(&self, own: &Symmetric, into: &mut Vec<SharedDensity>) {
         let s = Lanes::splat;
-        let (half, whole, normaliser) = (s(-HALF_LOG2_E), s(-2.0 * HALF_LOG2_E), s(normaliser(self.dimensions)));
+        let (half, whole, normaliser) = (s(-HALF_LOG2_E), s(-2.0 * HALF_LOG2_E), s(normaliser(self.dimensions())));
         into.resize(self.noises.len() * self.points, SharedDensity::default());
         let mut terms = into.iter_mut();
         for (pairs, lanes) in self.together() {
             let covariance = sum(&loaded(&pairs.covariance), &splat(own));
-            let ([xx, xy, yy, xz, yz, zz], determinant) = inverse(&covariance, self.dimensions);
+            let ([xx, xy, yy, xz, yz, zz], determinant) = inverse(&covariance, self.dimensions());
             let [mut a, mut b, mut c, mut d, mut e, mut f, mut factor] = [[0.0; WIDTH]; 7];
             (half * xx).store(&mut a);
             (whole * xy).store(&mut b);
@@ -176,7 +178,7 @@ impl Nodes {
 
     /// The pairs as terms of a sum, for destinations whose endpoints have each its own variances.
     pub fn densities(&self, into: &mut Vec<Density>) {
-        let normaliser = normaliser(self.dimensions);
+        let normaliser = normaliser(self.dimensions());
         into.resize(self.noises.len() * self.points, Density::default());
         let mut terms = into.iter_mut();
         for (pairs, lanes) in self.together() {
@@ -202,7 +204,7 @@ impl Nodes {
 
 /// The variance of the position in one axis, some time from now, but for the noise until then.
 #[inline(always)]
-fn grown(course: &Course, axis: usize, time: Lanes) -> Lanes {
+fn grown<S: Space>(course: &Course<S>, axis: usize, time: Lanes) -> Lanes {
     let [[pp, pv], [_, vv]] = course.axes[axis].covariance;
     Lanes::splat(pp) + time * (Lanes::splat(pv + pv) + time * Lanes::splat(vv))
 }
@@ -222,7 +224,7 @@ fn splat([a, b, c, d, e, f]: &Symmetric) -> Symmetric<Lanes> {
     [s(*a), s(*b), s(*c), s(*d), s(*e), s(*f)]
 }
 
-impl Pairs {
+impl<S: Space> Pairs<S> {
     /// `ln N_i` of a destination at `center` whose endpoint has this covariance.
     #[must_use]
     pub fn log_density(&self, center: &Vector, extent: &Extent) -> f64 {
@@ -241,12 +243,13 @@ impl Pairs {
 
     /// The logarithms of the pairs' densities, weights included.
     fn log_terms(&self, center: &Vector, extent: &Extent) -> Vec<f64> {
+        let d = self.space.dimensions();
         let offset = minus(center, &self.position);
         let each = self.list.iter().map(|pair| {
-            let (precision, determinant) = inverse(&sum(&pair.covariance, &extent.covariance), self.dimensions);
+            let (precision, determinant) = inverse(&sum(&pair.covariance, &extent.covariance), d);
             let error = minus(&offset, &pair.mean);
             let square = dot(&error, &times(&precision, &error));
-            pair.weight.ln() - 0.5 * (square + determinant.ln() + self.dimensions as f64 * LN_2_PI)
+            pair.weight.ln() - 0.5 * (square + determinant.ln() + d as f64 * LN_2_PI)
         });
         each.collect()
     }

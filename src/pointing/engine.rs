@@ -3,6 +3,7 @@
 use super::Pointing;
 use super::course::Course;
 use super::parameters::{Parameters, axis_variances};
+use super::space::AnySpace;
 use super::targets::Targets;
 use crate::engine::{Engine, Observed};
 use crate::error::Result;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 
 /// One movement under the pointing model.
 #[derive(Clone, Debug)]
-pub(crate) struct PointingEngine(Pointing);
+pub(crate) struct PointingEngine(Pointing<AnySpace>);
 
 impl PointingEngine {
     /// Begins at `start`, the first position.
@@ -30,7 +31,7 @@ impl PointingEngine {
         first: &Observed<'_>,
     ) -> Result<Self> {
         let variances = axis_variances(first.noise, "noise")?;
-        Ok(Self(Pointing::begin(parameters, targets(destinations), start, &variances)))
+        Ok(Self(Pointing::begin(AnySpace(start.len()), parameters, targets(destinations), start, &variances)))
     }
 
     /// The engine that [`Engine::save`] wrote.
@@ -38,7 +39,7 @@ impl PointingEngine {
     /// # Errors
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, parameters: Arc<Parameters>, destinations: &Destinations) -> Result<Self> {
-        let course = Course::load(node, destinations.dimensions())?;
+        let course = Course::load(node, AnySpace(destinations.dimensions()))?;
         Ok(Self(Pointing::resume(parameters, targets(destinations), course)))
     }
 }
@@ -74,11 +75,11 @@ impl Engine for PointingEngine {
     }
 
     fn state(&mut self, shares: Shares<'_>, later: f64) -> Option<Gaussian> {
-        self.0.state(shares, later)
+        self.0.state(shares, later).map(Gaussian::from)
     }
 
     fn initial_state(&mut self, shares: Shares<'_>) -> Option<Gaussian> {
-        self.0.initial_state(shares)
+        self.0.initial_state(shares).map(Gaussian::from)
     }
 
     fn replan(&mut self, destinations: &Arc<Destinations>, _origin: Option<&[usize]>) {

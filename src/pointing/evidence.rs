@@ -3,7 +3,7 @@
 use super::course::{Course, Onset};
 use super::parameters::{Direction, Start};
 use super::targets::Extent;
-use super::{Vector, cross, dot, minus};
+use super::{Space, Vector, cross, dot, minus};
 
 /// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is observed.
 /// The square of `onset`'s shortfall is added to that of the core.
@@ -31,21 +31,21 @@ pub fn log_near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) 
 
 /// The direction from the start to where the pointer is now, and how much it counts.
 #[derive(Clone, Copy, Debug)]
-pub struct DirectionNow<'a> {
+pub(crate) struct DirectionNow<'a, S> {
     direction: &'a Direction,
-    dimensions: usize,
+    space: S,
     way: Vector,
     weight: f64,
 }
 
-impl<'a> DirectionNow<'a> {
+impl<'a, S: Space> DirectionNow<'a, S> {
     /// Counts for more the farther the pointer has come and the slower it is.
     #[must_use]
-    pub fn new(direction: &'a Direction, course: &Course) -> Self {
+    pub fn new(direction: &'a Direction, course: &Course<S>) -> Self {
         let way = minus(&course.position(), &course.start);
         let net = dot(&way, &way).sqrt();
         let weight = net / (net + direction.distance + direction.time * course.speed());
-        Self { direction, dimensions: course.dimensions(), way, weight: direction.power * weight }
+        Self { direction, space: course.space(), way, weight: direction.power * weight }
     }
 
     /// How much it counts.
@@ -81,7 +81,7 @@ impl<'a> DirectionNow<'a> {
         // a zero that is not negative: what is at the start itself lies in no direction
         let (along, across) = (dot(&self.way, offset) + 0.0, cross(&self.way, offset));
         let angle = dot(&across, &across).sqrt().atan2(along).powi(2);
-        let size = angular_variance(offset, extent, self.dimensions);
+        let size = angular_variance(offset, extent, self.space.dimensions());
         let term = |square: f64| (angle / (square + size)).ln_1p();
         self.weight * (2.0 * term(self.wide_squared()) - term(self.core_squared()))
     }

@@ -7,11 +7,11 @@
 //! with `t` the angle between the way so far and the destination, `w` and `c` the squares of `wide` and `core`. `N_i` is a
 //! sum of [`SharedDensity`] terms where destinations share the covariance of their endpoints, of [`Density`] terms where not.
 
-use super::Vector;
 use super::endpoint::Nodes;
 use super::evidence::DirectionNow;
 use super::from_start::FromStart;
 use super::targets::{Class, Targets};
+use super::{Space, Vector};
 use crate::math::kernel::mixture::{Density, Places, SharedDensity, weighted_sums_in};
 use crate::math::kernel::vectors::{Block, Lanes, raise};
 
@@ -35,11 +35,11 @@ pub struct Work {
 
 /// What all destinations have in common after an observation.
 #[derive(Clone, Copy, Debug)]
-pub struct Now<'a> {
+pub(crate) struct Now<'a, S> {
     /// The endpoint densities.
-    pub nodes: &'a Nodes,
+    pub nodes: &'a Nodes<S>,
     /// The direction.
-    pub direction: &'a DirectionNow<'a>,
+    pub direction: &'a DirectionNow<'a, S>,
     /// The start of the movement.
     pub start: &'a Vector,
     /// The power `g`.
@@ -49,11 +49,11 @@ pub struct Now<'a> {
 impl Work {
     /// Writes the probabilities among the destinations and returns the logarithm of what they sum to; none where numbers
     /// leave the range in which this holds.
-    pub fn probabilities(
+    pub fn probabilities<S: Space>(
         &mut self,
         targets: &Targets,
         from_start: &FromStart,
-        now: &Now<'_>,
+        now: &Now<'_, S>,
         into: &mut Vec<f64>,
     ) -> Option<f64> {
         if !from_start.moderate {
@@ -94,7 +94,7 @@ impl Work {
 /// Turns the sums `N_i / S_i` into the exponents of the likelihoods, and returns the largest, and the largest of those
 /// whose sums may have been cut off.
 #[inline(never)]
-fn exponents(class: &Class, places: &Places<'_>, now: &Now<'_>, weights: &mut [Block]) -> (f64, f64) {
+fn exponents<S: Space>(class: &Class, places: &Places<'_>, now: &Now<'_, S>, weights: &mut [Block]) -> (f64, f64) {
     let s = Lanes::splat;
     let (zero, one) = (s(0.0), s(1.0));
     let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));

@@ -30,6 +30,7 @@ pub(crate) mod from_start;
 pub(crate) mod kernel;
 pub mod parameters;
 mod posterior;
+pub(crate) mod space;
 mod state;
 pub(crate) mod targets;
 
@@ -41,6 +42,7 @@ use evidence::{DirectionNow, log_near, log_start};
 use from_start::FromStart;
 use kernel::{Now, Work};
 use parameters::Parameters;
+use space::Space;
 use std::sync::Arc;
 use targets::Targets;
 
@@ -81,28 +83,34 @@ pub fn vector(components: &[f64]) -> Vector {
 
 /// One movement under the pointing model.
 #[derive(Clone, Debug)]
-pub(crate) struct Pointing {
+pub(crate) struct Pointing<S> {
     parameters: Arc<Parameters>,
     targets: Arc<Targets>,
     /// That of the start density.
     log_volume: f64,
-    course: Course,
-    nodes: Nodes,
+    course: Course<S>,
+    nodes: Nodes<S>,
     from_start: FromStart,
     work: Work,
 }
 
-impl Pointing {
+impl<S: Space> Pointing<S> {
     /// Begins at the first observation, of variance `variances` in each axis.
     #[must_use]
-    pub fn begin(parameters: Arc<Parameters>, targets: Arc<Targets>, position: &[f64], variances: &[f64]) -> Self {
-        let course = Course::begin(&parameters, position, variances);
+    pub fn begin(
+        space: S,
+        parameters: Arc<Parameters>,
+        targets: Arc<Targets>,
+        position: &[f64],
+        variances: &[f64],
+    ) -> Self {
+        let course = Course::begin(space, &parameters, position, variances);
         Self::resume(parameters, targets, course)
     }
 
     /// Goes on from a course that was saved.
     #[must_use]
-    pub fn resume(parameters: Arc<Parameters>, targets: Arc<Targets>, course: Course) -> Self {
+    pub fn resume(parameters: Arc<Parameters>, targets: Arc<Targets>, course: Course<S>) -> Self {
         let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets));
         let log_volume = parameters.start.log_volume(course.dimensions());
         Self { parameters, targets, log_volume, course, nodes, from_start, work: Work::default() }
@@ -124,7 +132,7 @@ impl Pointing {
 
     /// The movement so far.
     #[must_use]
-    pub const fn course(&self) -> &Course {
+    pub const fn course(&self) -> &Course<S> {
         &self.course
     }
 
@@ -202,7 +210,7 @@ impl Pointing {
 
     /// The pairs of noise scale and time to go after the latest observation.
     #[must_use]
-    pub const fn nodes(&self) -> &Nodes {
+    pub const fn nodes(&self) -> &Nodes<S> {
         &self.nodes
     }
 

@@ -1,10 +1,10 @@
 //! The posterior of the pointing model: targets, none of them, the time to go.
 
-use super::{Pointing, minus};
+use super::{Pointing, Space, minus};
 use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::{Shares, shares};
 
-impl Pointing {
+impl<S: Space> Pointing<S> {
     /// Writes the probabilities of the targets against none of them, whose prior is `none`, with the even share distributed over
     /// the targets that are possible at all, and returns the probability of none.
     pub fn posterior(&mut self, none: f64, into: &mut Vec<f64>) -> f64 {

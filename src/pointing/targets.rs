@@ -1,6 +1,6 @@
 //! The targets of a movement as flat arrays for the hot loop, by the covariance of their endpoints.
 
-use super::{Symmetric, Vector};
+use super::{Symmetric, Vector, dot};
 use crate::math::kernel::layout::{FEW, Layout};
 use crate::math::kernel::mixture::{AXES, Places};
 use std::ops::Range;
@@ -27,6 +27,20 @@ impl Extent {
     pub fn variance(&self, row: usize, column: usize) -> f64 {
         const PLACES: [[usize; AXES]; AXES] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
         self.covariance[PLACES[row][column]]
+    }
+
+    /// The lower triangular root of the covariance, Cholesky's.
+    #[must_use]
+    pub fn root(&self) -> [Vector; AXES] {
+        let mut root = [[0.0; AXES]; AXES];
+        for r in 0..AXES {
+            for c in 0..=r {
+                let known = dot(&root[r], &root[c]);
+                let left = self.variance(r, c) - known;
+                root[r][c] = if r == c { left.max(0.0).sqrt() } else { left / root[c][c] };
+            }
+        }
+        root
     }
 
     /// Whether the axes of the endpoint are independent.

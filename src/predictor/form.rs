@@ -3,6 +3,7 @@
 use super::Predictor;
 use crate::error::Result;
 use crate::model::destination::Destination;
+#[cfg(feature = "wasm")]
 use crate::model::observation::ObservationNoise;
 use crate::value::{Node, Value};
 

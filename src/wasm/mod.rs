@@ -3,29 +3,39 @@
 //! Flat things cross: numbers, slices of numbers, strings, and whole objects as plain [`data`]. JavaScript has read all of a
 //! user's object before it enters here, so that no getter and no proxy runs while a method borrows its engine.
 
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 mod data;
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 mod error;
 #[cfg(feature = "wasm-fit")]
 mod fit;
 mod memory;
 #[cfg(feature = "wasm")]
 mod pointer;
+#[cfg(feature = "wasm-pointing")]
+mod pointing;
 #[cfg(feature = "wasm")]
 mod predictor;
 #[cfg(feature = "wasm")]
 mod sequence;
 
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 pub use error::WhitherError;
 #[cfg(feature = "wasm")]
 pub use pointer::pointer_scenario;
+#[cfg(feature = "wasm-pointing")]
+pub use pointing::{PointerEngine, constants};
 #[cfg(feature = "wasm")]
 pub use predictor::Engine;
 #[cfg(feature = "wasm")]
 pub use sequence::SequenceEngine;
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 use wasm_bindgen::prelude::wasm_bindgen;
 
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 type Result<T> = std::result::Result<T, WhitherError>;
 
+#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 #[wasm_bindgen]
 extern "C" {
     /// A number as JavaScript prints it.

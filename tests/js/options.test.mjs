@@ -22,7 +22,6 @@ const parameters = {
   observation: { noise: 0.2 },
 };
 const predictor = new Predictor(small());
-const pointer = new pointing.Predictor(pointing.pointerScenario([target]));
 const sequence = new ConditionallyMarkovSequence(parameters);
 const track = {
   targets: [[0, 0, 1, 1]],
@@ -43,11 +42,10 @@ const functions = {
   "initSync of whither/pointing": { call: (options) => pointing.initSync(options), keys: ["module"] },
   observe: { call: (options) => predictor.observe(++time, [1, 2], options), keys: ["noise"] },
   "observe with a missing axis": { call: (options) => predictor.observe(++time, [1, null], options), keys: ["noise"] },
-  "observe of whither/pointing": { call: (options) => pointer.observe(++time, [1, 2], options), keys: ["noise"] },
   pointerScenario: { call: (options) => pointerScenario([target], options), keys: ["none"], prefix: "options." },
-  "pointerScenario of whither/pointing": {
-    call: (options) => pointing.pointerScenario([target], options),
-    keys: ["none"],
+  PointerPredictor: {
+    call: (options) => new pointing.PointerPredictor([target], options),
+    keys: ["none", "constants"],
     prefix: "options.",
   },
   sample: { call: (options) => sequence.sample(options), keys: ["seed", "count"], needs: { seed: 1, count: 1 } },

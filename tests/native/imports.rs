@@ -24,7 +24,19 @@ const RUST: [(&str, &[&str]); 16] = [
     ("internals", &["math", "model", "conditionally_markov", "scenario", "predictor", "snapshot", "study"]),
     (
         "wasm",
-        &["internals", "math", "conditionally_markov", "scenario", "pointer", "predictor", "snapshot", "study", "wasm"],
+        &[
+            "internals",
+            "math",
+            "conditionally_markov",
+            "posterior",
+            "pointing",
+            "scenario",
+            "pointer",
+            "predictor",
+            "snapshot",
+            "study",
+            "wasm",
+        ],
     ),
 ];
 
@@ -36,8 +48,13 @@ const JAVASCRIPT: [(&str, &[&str]); 4] =
     [("core", &[]), ("pointing", &["core"]), ("study", &["core"]), ("entries", &["core", "pointing", "study"])];
 
 /// Who imports the generated code: `#wasm` and `#bytes` are that of the entry's own module.
-const GENERATED: [&str; 4] =
-    ["js/core/loading/embedded.ts", "js/core/loading/instance.ts", "js/entries/study.ts", "js/study/fit.ts"];
+const GENERATED: [&str; 5] = [
+    "js/core/loading/embedded.ts",
+    "js/core/loading/instance.ts",
+    "js/entries/study.ts",
+    "js/pointing/predictor.ts",
+    "js/study/fit.ts",
+];
 
 const LONGEST: usize = 450;
 

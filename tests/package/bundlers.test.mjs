@@ -57,7 +57,7 @@ test("bundled without configuration", async (t) => {
     write(
       folder,
       "pointer.js",
-      'import { init, Predictor } from "whither/pointing"; window.outcome = init().then(() => Predictor);',
+      'import { init, PointerPredictor } from "whither/pointing"; window.outcome = init().then(() => PointerPredictor);',
     );
     const options = { bundle: true, minify: true, format: "esm", outdir: "site", metafile: true };
     const { metafile } = await esbuild.build({ absWorkingDir: folder, entryPoints: ["pointer.js"], ...options });

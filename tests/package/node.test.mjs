@@ -43,10 +43,10 @@ test("in Node", async (t) => {
   for (const [kind, load] of Object.entries({ import: "await import", require: "createRequire(import.meta.url)" })) {
     await t.test(`whither/pointing by ${kind} predicts, with its bytes and with its file`, async () => {
       const text = `import { createRequire } from "node:module"; import { readFileSync } from "node:fs";
-        const { init, initSync, pointerScenario, Predictor } = ${load}("whither/pointing");
+        const { init, initSync, PointerPredictor } = ${load}("whither/pointing");
         if (${kind === "import"}) await init(); else initSync({ module: readFileSync(createRequire(import.meta.url).resolve("whither/pointing.wasm")) });
         const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
-        const predictor = new Predictor(pointerScenario(icons));
+        const predictor = new PointerPredictor(icons);
         for (let k = 0; k < 12; k++) predictor.observe(k / 60, [480 + k * k, 600 - 20 * k]);
         console.log(JSON.stringify(predictor.best.id));`;
       assert.equal(await inNode(folder, `pointing-${kind}.mjs`, text), "900");
@@ -124,7 +124,10 @@ test("in Node", async (t) => {
           entry === "whither/slim"
             ? use.replace("init()", 'init({ wasm: (await import("node:fs")).readFileSync("site/whither.wasm") })')
             : use;
-        write(folder, "uncaught.mjs", `import { init, Predictor, pointerScenario } from "${entry}"; ${wasm}`);
+        // whatever a PointerPredictor is given, it refuses or frees alike
+        const names = entry === "whither/pointing" ? "PointerPredictor as Predictor" : "Predictor, pointerScenario";
+        const pointer = entry === "whither/pointing" ? "const pointerScenario = (targets) => targets;" : "";
+        write(folder, "uncaught.mjs", `import { init, ${names} } from "${entry}"; ${pointer} ${wasm}`);
         for (const flags of [[], ["--enable-source-maps"]]) {
           const { code, output } = await capture("node", [...flags, "uncaught.mjs"], { cwd: folder });
           assert.equal(code, 1);
@@ -187,8 +190,8 @@ test("in Node", async (t) => {
   await t.test("where code may not compile, each entry takes the module that the platform compiled", async () => {
     const programs = {
       whither: `import * as whither from "whither"; import { predict } from "./predict.js"; ${answer}`,
-      "whither/pointing": `import { init, pointerScenario, Predictor } from "whither/pointing"; await init();
-        const predictor = new Predictor(pointerScenario([{ id: "a", x: 0, y: 0, width: 9, height: 9 }]));
+      "whither/pointing": `import { init, PointerPredictor } from "whither/pointing"; await init();
+        const predictor = new PointerPredictor([{ id: "a", x: 0, y: 0, width: 9, height: 9 }]);
         predictor.observe(0, [9, 9]); console.log(JSON.stringify(predictor.best.id));`,
       "whither/study": `import { fit } from "whither/study"; console.log(JSON.stringify(await fit([], {}).catch(({ code }) => code)));`,
       "whither/slim": `import * as slim from "whither/slim"; import wasm from "whither/whither.wasm"; import { predict } from "./predict.js";

@@ -45,8 +45,8 @@ test("the package's names", async (t) => {
     const text = `import { init, Predictor, pointerScenario } from "whither";
       import * as slim from "whither/slim"; import * as pointing from "whither/pointing"; import { fit } from "whither/study";
       const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
-      const best = ({ Predictor, pointerScenario }) => {
-        const predictor = new Predictor(pointerScenario(icons));
+      const best = ({ Predictor, pointerScenario, PointerPredictor }) => {
+        const predictor = PointerPredictor ? new PointerPredictor(icons) : new Predictor(pointerScenario(icons));
         for (let k = 0; k < 12; k++) predictor.observe(k / 60, [480 + k * k, 600 - 20 * k]);
         return predictor.best.id;
       };

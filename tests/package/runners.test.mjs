@@ -15,12 +15,12 @@ test("the surroundings are jsdom's", () => {
   expect(Blob.prototype.stream).toBe(undefined);
 });
 
-for (const [name, { init, pointerScenario, Predictor }] of Object.entries({ whither, pointing })) {
+for (const [name, { init, pointerScenario, Predictor, PointerPredictor }] of Object.entries({ whither, pointing })) {
   test(name + " loads and predicts", async () => {
     await init();
     document.body.innerHTML = '<a id="near"></a><a id="far"></a>';
     const icons = [...document.querySelectorAll("a")].map(({ id }, i) => ({ id, x: 500 * i, y: 0, width: 9, height: 9 }));
-    const predictor = new Predictor(pointerScenario(icons));
+    const predictor = PointerPredictor ? new PointerPredictor(icons) : new Predictor(pointerScenario(icons));
     for (let k = 0; k < 9; k++) predictor.observe(k / 60, [250 + 9 * k, 0]);
     expect(predictor.best.id).toBe("far");
   });

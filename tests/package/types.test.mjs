@@ -44,8 +44,17 @@ new Predictor(pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }]
 
 export async function point(options: pointing.InitOptions): Promise<number> {
   await pointing.init(options);
-  return new pointing.Predictor(pointing.pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }])).none;
+  const targets: pointing.PointerTarget[] = [{ id: "radio", x: 1, y: 2, width: 3, height: 4, prior: 2 }];
+  const constants: pointing.PointerConstants = { pointing: { power: { to: 2 } }, motion: { noise: 900 } };
+  const pointer = new pointing.PointerPredictor(targets, { none: 0.1, constants });
+  pointer.setTargets(targets);
+  const best: pointing.Best | null = pointer.best;
+  return pointer.none + (pointer.forecast(1)?.mean[0] ?? 0) + (best?.probability ?? 0);
 }
+export const learnt = async (tracks: readonly Track[], targets: pointing.PointerTarget[]): Promise<pointing.PointerPredictor> =>
+  new pointing.PointerPredictor(targets, { constants: (await fit(tracks, pointerScenario(targets))).scenario });
+// @ts-expect-error: there is no such constant
+void new pointing.PointerPredictor([], { constants: { pointing: { speed: 1 } } });
 // @ts-expect-error: there are no sequences
 void pointing.ConditionallyMarkovSequence;
 

@@ -1,0 +1,212 @@
+// `PointerPredictor` of whither/pointing against the `Predictor` of whither with `pointerScenario`: the same probabilities to the
+// bit, whatever happens on the way.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { init, pointerScenario, Predictor } from "whither";
+import * as pointing from "whither/pointing";
+import { close, golden, same } from "./support.mjs";
+
+await Promise.all([init(), pointing.init()]);
+
+const { PointerPredictor } = pointing;
+
+/** Even numbers from 0 to 1, the same in every run (mulberry32). */
+function draws(seed) {
+  return () => {
+    seed = (seed + 0x6d2b79f5) | 0;
+    let t = Math.imul(seed ^ (seed >>> 15), 1 | seed);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+/** Targets anywhere on a screen, in so many sizes, with priors where `weighted`. */
+function targetsOf(draw, count, sizes, weighted = false) {
+  const size = (k) => ({ width: 40 + 7 * k, height: 24 + (k % 3) });
+  return Array.from({ length: count }, (_, i) => ({
+    id: `target ${i}`,
+    x: 1600 * draw(),
+    y: 900 * draw(),
+    ...size(Math.floor(sizes * draw())),
+    ...(weighted ? { prior: draw() < 0.2 ? 0 : 3 * draw() } : {}),
+  }));
+}
+
+/** A movement of a trembling hand, with rests, equal times and pauses: `[time, [x, y]]`. */
+function movementOf(draw, count) {
+  let [time, x, y, vx, vy] = [1e4 * draw(), 1600 * draw(), 900 * draw(), 0, 0];
+  return Array.from({ length: count }, () => {
+    const step = draw() < 0.2 ? 0 : draw() < 0.05 ? 2 : 0.004 + 0.02 * draw();
+    [vx, vy] = draw() < 0.1 ? [0, 0] : [vx + 300 * (draw() - 0.5), vy + 300 * (draw() - 0.5)];
+    [time, x, y] = [time + step, x + vx * step + draw() - 0.5, y + vy * step + draw() - 0.5];
+    return [time, [x, y]];
+  });
+}
+
+/** The destinations of a scenario for targets, priors with them. */
+function destinationsOf(targets) {
+  const { destinations } = pointerScenario(targets.map(({ prior, ...target }) => target));
+  return destinations.map((destination, i) => ({ ...destination, prior: targets[i].prior ?? 1 }));
+}
+
+/** Both predictors. */
+function pairOf(targets, none = 0) {
+  const scenario = pointerScenario(
+    targets.map(({ prior, ...target }) => target),
+    { none },
+  );
+  const predictor = new Predictor({ ...scenario, destinations: destinationsOf(targets) });
+  return { predictor, pointer: new PointerPredictor(targets, { none }) };
+}
+
+const numbers = (gaussian) => [...gaussian.mean, ...gaussian.covariance];
+
+/** All that both answer; states within 1e-9, in units of the screen. */
+function agree({ predictor, pointer }, targets, time, what) {
+  same(pointer.probabilities(), predictor.probabilities(), what);
+  same([pointer.none], [predictor.none], `${what}: none`);
+  assert.deepEqual(pointer.best, predictor.best, what);
+  const [remaining, expected] = [pointer.remaining, predictor.remaining];
+  if (expected === null) assert.equal(remaining, null, what);
+  else same(Object.values(remaining), Object.values(expected), `${what}: remaining`);
+  for (const later of [0, 0.02, 0.3, 5]) {
+    const [found, wanted] = [pointer, predictor].map((p) => numbers(p.forecast(time + later)));
+    close(found, wanted, 1e-9, `${what}: forecast`);
+  }
+  const { id } = targets[targets.length >> 1];
+  const times = [time, time + 0.05, time + 1];
+  close(pointer.path(id, times), predictor.path(id, times), 1e-9, `${what}: path`);
+}
+
+const CASES = {
+  "21 targets of one size": { count: 21, sizes: 1 },
+  "21 targets of one size, none .05": { count: 21, sizes: 1, none: 0.05 },
+  "one target": { count: 1, sizes: 1, none: 0.3 },
+  "40 targets in 3 sizes with priors": { count: 40, sizes: 3, none: 0.1, weighted: true },
+  "60 targets in 30 sizes": { count: 60, sizes: 30, weighted: true },
+  "1000 targets of one size": { count: 1000, sizes: 1, length: 12 },
+  "1000 targets in 200 sizes": { count: 1000, sizes: 200, none: 0.02, length: 12 },
+};
+
+for (const [name, { count, sizes, none, weighted, length = 60 }] of Object.entries(CASES)) {
+  test(`the same as Predictor: ${name}`, () => {
+    for (const seed of [1, 2, 3]) {
+      const draw = draws(seed);
+      const targets = targetsOf(draw, count, sizes, weighted);
+      const pair = pairOf(targets, none);
+      same(pair.pointer.probabilities(), pair.predictor.probabilities(), "before");
+      assert.equal(pair.pointer.best, null);
+      assert.equal(pair.pointer.forecast(0), null);
+      movementOf(draw, length).forEach(([time, position], k) => {
+        for (const p of Object.values(pair)) p.observe(time, position);
+        if (k % 4 < 2) agree(pair, targets, time, `seed ${seed}, observation ${k}`);
+      });
+      for (const p of Object.values(pair)) p.free();
+    }
+  });
+}
+
+test("the same as Predictor: other targets in mid-movement, a second movement, copies", () => {
+  const draw = draws(7);
+  let targets = targetsOf(draw, 30, 4, true);
+  const pair = pairOf(targets, 0.1);
+  for (let round = 0; round < 8; round++) {
+    for (const [time, position] of movementOf(draw, 12)
+      .map(([t, p]) => [(t % 10) + 100 * round, p])
+      .sort((a, b) => a[0] - b[0])) {
+      for (const p of Object.values(pair)) p.observe(time, position);
+      agree(pair, targets, time, `round ${round}`);
+    }
+    // some move, some stay, some come and go
+    targets = [...targetsOf(draw, 5 + round, 2 + round, true), ...targets.slice(10)].map((target, i) => ({
+      ...target,
+      id: `${i}`,
+    }));
+    pair.pointer.setTargets(targets);
+    pair.predictor.setDestinations(destinationsOf(targets));
+    same(pair.pointer.probabilities(), pair.predictor.probabilities(), `changed in round ${round}`);
+    if (round % 3 === 2) for (const p of Object.values(pair)) p.reset();
+    const copy = pair.pointer.clone();
+    same(copy.probabilities(), pair.pointer.probabilities(), "copied");
+    pair.pointer.free();
+    pair.pointer = copy;
+  }
+});
+
+test("the same as Predictor: missing axes, and numbers beyond any screen", () => {
+  const draw = draws(11);
+  const targets = targetsOf(draw, 12, 2);
+  const pair = pairOf(targets, 0.05);
+  movementOf(draw, 40).forEach(([time, [x, y]], k) => {
+    const position = [k % 5 === 1 ? null : x, k % 7 === 3 ? undefined : y];
+    for (const p of Object.values(pair)) p.observe(time, position);
+    agree(pair, targets, time, `observation ${k}`);
+  });
+  for (const far of [1e5, -1e8, 1e20, 1e49]) {
+    const far2 = pairOf(targets, 0.05);
+    for (let k = 0; k < 6; k++) {
+      for (const p of Object.values(far2)) {
+        p.observe(0.01 * k, [k * far, 300]);
+        assert.equal(p.probabilities().length, 12);
+      }
+      same(far2.pointer.probabilities(), far2.predictor.probabilities(), `${far} at ${k}`);
+      assert.deepEqual(far2.pointer.best, far2.predictor.best);
+    }
+  }
+});
+
+for (const name of ["grid21", "none", "repeats", "ring12", "sizes40"]) {
+  test(`pointing-${name}`, () => {
+    const { scenario, observations, expected } = golden(`pointing-${name}`);
+    const targets = scenario.destinations.map(({ id, center: [x, y], size, prior }) => {
+      const [width, height] = typeof size === "number" ? [size, size] : size;
+      return { id, x, y, width, height, prior };
+    });
+    // constants that the case does not have are not those of a screen
+    const { restDistance = 0, noneOffset = 0, noneShare = 0 } = scenario.pointing;
+    const constants = { ...scenario, pointing: { ...scenario.pointing, restDistance, noneOffset, noneShare } };
+    const pointer = new PointerPredictor(targets, { constants });
+    observations.forEach(([time, ...position], k) => {
+      pointer.observe(time, position);
+      close(pointer.probabilities(), expected.probabilities[k], 1e-9, `probabilities after ${k}`);
+      close([pointer.none], [expected.none[k]], 1e-9, `none after ${k}`);
+    });
+  });
+}
+
+test("constants are those that fit learns, or any part of them", () => {
+  const draw = draws(13);
+  const targets = targetsOf(draw, 9, 2);
+  const scenario = pointerScenario(targets, { none: 0.2 });
+  const learnt = {
+    ...scenario,
+    motion: { ...scenario.motion, noise: 900, speedNoise: 1.5 },
+    observation: { noise: [0.4, 0.7] },
+    initial: { velocity: [30, 60] },
+    pointing: {
+      ...scenario.pointing,
+      noise: [300, 900, 5000],
+      alongNoise: 2,
+      timeToGo: { ...scenario.pointing.timeToGo, points: 5, median: 0.3 },
+      remaining: { ...scenario.pointing.remaining, offset: 0.2 },
+    },
+  };
+  const part = {
+    motion: { noise: 900, speedNoise: 1.5 },
+    observation: learnt.observation,
+    initial: learnt.initial,
+    pointing: { noise: [300, 900, 5000], alongNoise: 2, timeToGo: { points: 5, median: 0.3 }, remaining: { offset: 0.2 } },
+  };
+  const predictor = new Predictor(learnt);
+  const pointers = [
+    new PointerPredictor(targets, { constants: learnt }),
+    new PointerPredictor(targets, { none: 0.2, constants: learnt }),
+    new PointerPredictor(targets, { none: 0.2, constants: part }),
+  ];
+  const plain = new PointerPredictor(targets, { none: 0.2, constants: { motion: {}, pointing: null } });
+  for (const [time, position] of movementOf(draw, 30)) {
+    for (const p of [predictor, plain, ...pointers]) p.observe(time, position);
+    for (const pointer of pointers) agree({ predictor, pointer }, targets, time, "learnt");
+  }
+  assert.notDeepEqual(plain.probabilities(), pointers[0].probabilities());
+});
