@@ -94,7 +94,7 @@ fn pointing_allocates_nothing_after_the_first_observations() {
 
 /// Bytes that one more target takes, of a predictor in mid-movement.
 fn bytes_of_one_more(make: fn(u32, Sizes) -> Predictor, sizes: Sizes) -> i64 {
-    let weigh = |count: u32| {
+    let bytes = |count: u32| {
         let running = || {
             let mut predictor = make(count, sizes);
             movement(&mut predictor, 0, 5);
@@ -102,7 +102,7 @@ fn bytes_of_one_more(make: fn(u32, Sizes) -> Predictor, sizes: Sizes) -> i64 {
         };
         measure(running).bytes_current
     };
-    (weigh(3000) - weigh(1000)) / 2000
+    (bytes(3000) - bytes(1000)) / 2000
 }
 
 #[test]
