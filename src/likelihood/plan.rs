@@ -68,7 +68,7 @@ impl Plan {
             };
             *known = Some(grid);
             plan.possible[grid as usize] |= destinations.priors()[i] > 0.0;
-            let group = *groups.entry((grid, number)).or_insert(plan.groups.len());
+            let group = *groups.entry((grid as usize, number)).or_insert(plan.groups.len());
             if group == plan.groups.len() {
                 plan.groups.push(Group { grid: grid as usize, class: number, members: Vec::new() });
             }

@@ -25,17 +25,12 @@ impl ArrivalTime {
     /// The posterior for nodes that may repeat and be in any order; `weights` need not sum to one.
     #[must_use]
     pub fn from_nodes(nodes: &[(f64, f64)]) -> Self {
-        let (mut times, mut probabilities): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-        let mut nodes = nodes.to_vec();
-        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut times: Vec<f64> = nodes.iter().map(|(time, _)| *time).collect();
+        times.sort_unstable_by(f64::total_cmp);
+        times.dedup();
+        let mut probabilities = vec![0.0; times.len()];
         for (time, weight) in nodes {
-            match probabilities.last_mut() {
-                Some(sum) if times.last() == Some(&time) => *sum += weight,
-                _ => {
-                    times.push(time);
-                    probabilities.push(weight);
-                }
-            }
+            probabilities[times.partition_point(|t| t < time)] += weight;
         }
         let total: f64 = probabilities.iter().sum();
         if total > 0.0 {

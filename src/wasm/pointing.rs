@@ -18,10 +18,6 @@ use crate::posterior::shares;
 use std::sync::Arc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Small rather than fast: a step allocates nothing.
-#[global_allocator]
-static ALLOCATOR: rlsf::SmallGlobalTlsf = rlsf::SmallGlobalTlsf::new();
-
 /// State of a JavaScript `PointerPredictor`.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]

@@ -45,7 +45,7 @@ pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
             *place |= (0..16).map(|bit| (share >> bit & 1) << (bit * d + axis)).sum::<u64>();
         }
     }
-    places.sort_by_key(|(place, _)| *place);
+    places.sort_unstable();
     members.iter_mut().zip(places).for_each(|(member, (_, i))| *member = i);
 }
 

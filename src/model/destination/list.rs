@@ -47,7 +47,7 @@ impl Destinations {
             by_id: (0..count as u32).collect(),
             priors: Vec::with_capacity(count),
         };
-        let mut classes: HashMap<Vec<u64>, u32> = HashMap::new();
+        let mut classes: HashMap<Vec<u64>, usize> = HashMap::new();
         for (i, destination) in list.into_iter().enumerate() {
             let path = path.index(i);
             all.ids.push_str(&destination.id);
@@ -56,17 +56,20 @@ impl Destinations {
             // most are of the class before, which is sooner compared than looked up
             endpoint.class = match all.endpoints.last() {
                 Some(before) if all.classes[before.class as usize] == class => before.class,
-                _ => *classes.entry(class.fingerprint()).or_insert_with(|| {
-                    all.classes.push(class);
-                    all.classes.len() as u32 - 1
-                }),
+                _ => {
+                    let place = *classes.entry(class.fingerprint()).or_insert(all.classes.len());
+                    if place == all.classes.len() {
+                        all.classes.push(class);
+                    }
+                    place as u32
+                }
             };
             all.priors.push(endpoint.prior);
             all.endpoints.push(endpoint);
         }
         all.classes.shrink_to_fit();
         let mut by_id = std::mem::take(&mut all.by_id);
-        by_id.sort_by_key(|&i| all.id(i as usize));
+        by_id.sort_unstable_by_key(|&i| (all.id(i as usize), i));
         for pair in by_id.windows(2) {
             let [first, second] = [pair[0] as usize, pair[1] as usize];
             if all.id(first) == all.id(second) {
