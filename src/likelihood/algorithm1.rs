@@ -52,10 +52,9 @@ impl Likelihood for Algorithm1 {
             let Some(density) = Factor::new(error) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;
-                let predicted = step.predicted.mean(i);
-                let mean = &predicted + &conditioned.gain * scene.endpoint_error(i, &endpoint, &predicted);
-                self.table[scene.plan.rows[i] + node.index] +=
-                    density.log_density(&(&step.measurement.value - observation * &mean));
+                let mut mean = step.predicted.mean(i);
+                mean.gemv(1.0, &conditioned.gain, &scene.endpoint_error(i, &endpoint, &mean), 1.0);
+                self.table[scene.plan.rows[i] + node.index] += density.log_density(&step.measurement.error(&mean));
             }
         }
     }

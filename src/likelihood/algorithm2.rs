@@ -27,7 +27,6 @@ use crate::error::Result;
 use crate::math::gaussian::{Factor, condition, propagate};
 use crate::model::endpoint::Endpoint;
 use crate::value::{Node, Value};
-use nalgebra::DVector;
 
 /// Accumulated log likelihoods for each destination and node.
 #[derive(Clone, Debug, Default)]
@@ -65,13 +64,11 @@ impl Likelihood for Algorithm2 {
             let Some(density) = Factor::new(propagate(observation, &state, &step.measurement.noise)) else { continue };
             for &i in &node.group.members {
                 let i = i as usize;
-                let mean = step.before.mean(i);
-                let smoothed = &mean + &before.gain * scene.endpoint_error(i, &total, &mean);
-                let moved: DVector<f64> =
-                    &transition.transition * &smoothed + transition.constant(scene.destinations.center(i));
-                let bridged = &moved + &onward.gain * scene.endpoint_error(i, &rest, &moved);
-                self.table[scene.plan.rows[i] + node.index] +=
-                    density.log_density(&(&step.measurement.value - observation * &bridged));
+                let mut smoothed = step.before.mean(i);
+                smoothed.gemv(1.0, &before.gain, &scene.endpoint_error(i, &total, &smoothed), 1.0);
+                let mut bridged = transition.predict(&smoothed, scene.destinations.center(i));
+                bridged.gemv(1.0, &onward.gain, &scene.endpoint_error(i, &rest, &bridged), 1.0);
+                self.table[scene.plan.rows[i] + node.index] += density.log_density(&step.measurement.error(&bridged));
             }
         }
     }

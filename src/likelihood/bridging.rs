@@ -53,6 +53,8 @@ struct Onward<'a> {
     /// `s + l` square.
     matrix: DMatrix<f64>,
     noise: DMatrix<f64>,
+    /// What the step adds to the state, where that is the same for every destination.
+    offset: Option<DVector<f64>>,
 }
 
 impl<'a> Onward<'a> {
@@ -65,14 +67,19 @@ impl<'a> Onward<'a> {
         matrix.view_mut((0, s), (s, l)).copy_from(&bridge.destination);
         let mut noise = DMatrix::zeros(s + l, s + l);
         noise.view_mut((0, 0), (s, s)).copy_from(&bridge.covariance);
-        Some(Self { bridge, step, rest, matrix, noise })
+        let depends = step.destination_gain.is_some() || rest.destination_gain.is_some();
+        let offset = (!depends).then(|| bridge.offset(&step.offset, &rest.offset));
+        Some(Self { bridge, step, rest, matrix, noise, offset })
     }
 
     /// The mean of `[x_k; z]` after the step, for the destination around `center`.
     fn mean(&self, before: &DVector<f64>, center: &[f64]) -> DVector<f64> {
         let mut mean = &self.matrix * before;
-        let offset = self.bridge.offset(&self.step.constant(center), &self.rest.constant(center));
-        mean.rows_mut(0, offset.len()).zip_apply(&offset, |x, o| *x += o);
+        let mut state = mean.rows_mut(0, self.step.offset.len());
+        match &self.offset {
+            Some(offset) => state += offset,
+            None => state += self.bridge.offset(&self.step.constant(center), &self.rest.constant(center)),
+        }
         mean
     }
 }
@@ -122,7 +129,7 @@ impl Likelihood for Bridging {
                 if let Some(correction) = &correction {
                     let error = &step.measurement.value - &observation * &mean;
                     self.table[row] += correction.prediction_error.log_density(&error);
-                    mean += &correction.gain * &error;
+                    mean.gemv(1.0, &correction.gain, &error, 1.0);
                 }
                 self.means[place..place + size].copy_from_slice(mean.as_slice());
             }

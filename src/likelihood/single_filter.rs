@@ -103,7 +103,7 @@ impl Likelihood for SingleFilter {
         let integral = Integral::new(&scene, query.node, joint_root(&all, &scene, &noise))?;
         let at = integral.root.rows(s, s).into_owned();
         let mean = |&i: &usize| {
-            let predicted = &step.transition * scene.filter.mean(i) + step.constant(scene.destinations.center(i));
+            let predicted = step.predict(&scene.filter.mean(i), scene.destinations.center(i));
             let endpoint = scene.endpoint_error(i, &rest, &predicted);
             predicted + &at * integral.mean(&scene, i, &endpoint)
         };
@@ -168,7 +168,7 @@ impl Integral {
     fn exponent(&self, scene: &Scene<'_>, i: usize, error: &DVector<f64>) -> (DMatrix<f64>, f64) {
         let column = |v: &DVector<f64>| DMatrix::from_column_slice(v.len(), 1, v.as_slice());
         // c less the denominator's prediction of z from the smoothed start
-        let apart = scene.endpoint_error(i, &self.start, &scene.filter.smoothed_start(i).mean) - error;
+        let apart = scene.endpoint_error(i, &self.start, &scene.filter.start_mean(i)) - error;
         let (b, r) = (column(error), column(&apart));
         let (solved_b, solved_r) = (self.endpoint.solve(&b), self.denominator.solve(&r));
         let linear = self.endpoint_root.transpose() * &solved_b + &self.gap.transpose() * &solved_r;

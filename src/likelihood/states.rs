@@ -49,7 +49,7 @@ impl StateQuery<'_> {
         let predicted = propagate(&step.transition, &filter.current_covariance(), &step.noise);
         let conditioned = condition(&predicted, &rest.matrix, &(&rest.noise + &self.node.covariance))?;
         let mean = |&i: &usize| {
-            let mean = &step.transition * filter.mean(i) + step.constant(destinations.center(i));
+            let mean = step.predict(&filter.mean(i), destinations.center(i));
             let error = self.now.endpoint_error(i, &rest, &mean);
             mean + &conditioned.gain * &error
         };

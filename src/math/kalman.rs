@@ -28,6 +28,16 @@ pub struct Measurement {
     pub noise: DMatrix<f64>,
 }
 
+impl Measurement {
+    /// The prediction error of a predicted state, `y - G x`.
+    #[must_use]
+    pub fn error(&self, state: &DVector<f64>) -> DVector<f64> {
+        let mut error = self.value.clone();
+        error.gemv(-1.0, &self.matrix, state, 1.0);
+        error
+    }
+}
+
 /// Mean columns and a root of one covariance of `[x_1; x_k]`, and the log evidence `log p(y_2:k | y_1)` of each column.
 ///
 /// ```
@@ -108,14 +118,17 @@ impl Filter {
         square(&self.root.rows(self.states, self.states).into_owned())
     }
 
+    /// The mean of [`Filter::smoothed_start`].
+    #[must_use]
+    pub fn start_mean(&self, i: usize) -> DVector<f64> {
+        self.means.column(self.column(i)).rows(0, self.states).into_owned()
+    }
+
     /// The smoothed state at the first observation, `p(x_1 | y_1:k)`, for destination `i`.
     #[must_use]
     pub fn smoothed_start(&self, i: usize) -> Gaussian {
         let s = self.states;
-        Gaussian {
-            mean: self.means.column(self.column(i)).rows(0, s).into_owned(),
-            covariance: square(&self.root.view((0, 0), (s, s)).into_owned()),
-        }
+        Gaussian { mean: self.start_mean(i), covariance: square(&self.root.view((0, 0), (s, s)).into_owned()) }
     }
 
     /// `log p(y_2:k | y_1)` under destination `i`'s motion.

@@ -56,7 +56,13 @@ impl Endpoint {
     /// `a - (B x + n + D c)`, the pseudo-observation's prediction error.
     #[must_use]
     pub fn error(&self, endpoint: Vec<f64>, state: &DVector<f64>, center: &[f64]) -> DVector<f64> {
-        DVector::from_vec(endpoint) - &self.matrix * state - self.constant(center)
+        let mut error = DVector::from_vec(endpoint);
+        error.gemv(-1.0, &self.matrix, state, 1.0);
+        error -= &self.offset;
+        if let Some(gain) = &self.destination_gain {
+            error.gemv(-1.0, gain, &DVector::from_column_slice(center), 1.0);
+        }
+        error
     }
 }
 
@@ -65,6 +71,14 @@ impl Transition {
     #[must_use]
     pub fn constant(&self, center: &[f64]) -> DVector<f64> {
         constant(&self.offset, self.destination_gain.as_ref(), center)
+    }
+
+    /// `F x + M + B c`, Liang (1) without the noise.
+    #[must_use]
+    pub fn predict(&self, state: &DVector<f64>, center: &[f64]) -> DVector<f64> {
+        let mut predicted = self.constant(center);
+        predicted.gemv(1.0, &self.transition, state, 1.0);
+        predicted
     }
 }
 

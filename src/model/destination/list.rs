@@ -246,7 +246,12 @@ impl Destinations {
     /// The endpoint's mean `a_i`, of length `l`.
     #[must_use]
     pub fn mean(&self, i: usize) -> Vec<f64> {
-        [self.center(i), &self.rest(i)].concat()
+        let length = self.class(i).length();
+        let mut mean = Vec::with_capacity(length);
+        mean.extend_from_slice(self.center(i));
+        mean.extend_from_slice(&self.endpoints[i].rest);
+        mean.resize(length, 0.0);
+        mean
     }
 
     /// The prior weights, not normalised.
