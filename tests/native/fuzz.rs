@@ -123,6 +123,8 @@ impl Draw {
             if self.chance(0.3) {
                 scenario["observation"]["noise"] = json!(self.within(0.1, 2.0));
             }
+            // in the order of the keys' names, whatever json! keeps: a seed is then the same case for good
+            scenario.sort_all_objects();
             value(&scenario)
         };
         while self.chance(0.35) {
@@ -142,6 +144,7 @@ impl Draw {
         if self.chance(0.2) {
             destination["arrival"] = json!({ "type": "discrete", "times": self.list(3, 0.1, 9.0) });
         }
+        destination.sort_all_objects();
         let mut destination = value(&destination);
         if self.chance(0.2) {
             self.corrupt(&mut destination);
