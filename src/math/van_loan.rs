@@ -87,13 +87,26 @@ impl VanLoan {
 
     /// What it is over a step, `step >= 0`.
     #[must_use]
-    #[inline(never)]
     pub fn step(&self, step: f64) -> Step {
+        self.over(step, true)
+    }
+
+    /// The same for an equation without a constant term: the integral, which it has no use for, is zero.
+    #[must_use]
+    pub fn step_without_integral(&self, step: f64) -> Step {
+        self.over(step, false)
+    }
+
+    #[inline(never)]
+    fn over(&self, step: f64, with_integral: bool) -> Step {
         let time = self.rate * step;
         let doublings = if time > 0.5 { (2.0 * time).log2().ceil().min(1100.0) as i32 } else { 0 };
         let short = time * 0.5f64.powi(doublings);
         let mut change = sum(&self.change, short);
-        let mut integral = sum(&self.integral, short) / self.rate;
+        let mut integral = DMatrix::zeros(change.nrows(), change.nrows());
+        if with_integral {
+            integral = sum(&self.integral, short) / self.rate;
+        }
         let mut noise = sum(&self.noise, short) / self.rate;
         let (mut grown, mut product) = (change.clone(), change.clone());
         for _ in 0..doublings {
@@ -104,9 +117,11 @@ impl VanLoan {
             noise += &grown;
             noise += grown.transpose();
             noise += &product;
-            change.mul_to(&integral, &mut product);
-            integral *= 2.0;
-            integral += &product;
+            if with_integral {
+                change.mul_to(&integral, &mut product);
+                integral *= 2.0;
+                integral += &product;
+            }
             change.mul_to(&change, &mut product);
             change *= 2.0;
             change += &product;

@@ -89,7 +89,8 @@ impl MotionModel for Custom {
     }
 
     fn transition(&self, step: f64) -> Transition {
-        let over = self.equation.step(step);
+        let constant = self.offset.is_some() || self.depends_on_destination();
+        let over = if constant { self.equation.step(step) } else { self.equation.step_without_integral(step) };
         Transition {
             offset: match &self.offset {
                 Some(offset) => &over.integral * offset,
