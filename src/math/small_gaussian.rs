@@ -158,6 +158,14 @@ pub(crate) fn inverse<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (S
     ([a * over, b * over, c * over, d * over, e * over, f * over], determinant)
 }
 
+/// A symmetric matrix times a vector.
+#[must_use]
+pub(crate) fn times(matrix: &Symmetric, v: &[f64; 3]) -> [f64; 3] {
+    let [xx, xy, yy, xz, yz, zz] = *matrix;
+    let [x, y, z] = *v;
+    [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -16,7 +16,7 @@ use crate::math::gaussian::LN_2_PI;
 use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
 use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
-use crate::math::small_gaussian::inverse;
+use crate::math::small_gaussian::{inverse, times};
 use std::ops::Range;
 
 /// One (scale, time to go).
@@ -278,12 +278,4 @@ pub fn spread<N: Number>(noise: &[f64; 2], velocity: &Vector, factor: N) -> Symm
     let (even, along) = (N::of(noise[0]) * factor, N::of(noise[1]) * factor);
     let (xx, yy, zz) = (along * N::of(x * x), along * N::of(y * y), along * N::of(z * z));
     [even + xx, along * N::of(x * y), even + yy, along * N::of(x * z), along * N::of(y * z), even + zz]
-}
-
-/// A symmetric matrix times a vector.
-#[must_use]
-pub fn times(matrix: &Symmetric, v: &Vector) -> Vector {
-    let [xx, xy, yy, xz, yz, zz] = *matrix;
-    let [x, y, z] = *v;
-    [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
 }

@@ -3,7 +3,6 @@
 use super::axis_endpoint::AxisEndpoint;
 use super::pruning::{BoundingBox, MANY, arrange, bounding_boxes};
 use super::separable::MOST;
-use super::telescoped::IN_RANGE;
 use crate::likelihood::plan::Plan;
 use crate::math::kernel::layout::{FEW, Layout};
 use crate::math::kernel::mixture::AXES;
@@ -12,6 +11,9 @@ use crate::model::destination::Destinations;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 use std::ops::Range;
+
+/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
+pub const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
 
 /// Arrival nodes of a class.
 #[derive(Clone, Debug)]

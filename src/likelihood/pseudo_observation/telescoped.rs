@@ -1,7 +1,7 @@
 //! The telescoped form of Liang's prediction errors for all destinations at once: the filters, and the sums over nodes.
 
 use super::candidate::{Candidate, Source, Tables};
-use super::classes::{Class, Classes};
+use super::classes::{Class, Classes, IN_RANGE};
 use super::coefficients::Work;
 use super::conversion::{axes_of, coupled_of};
 use super::coupled::Coupled;
@@ -38,9 +38,6 @@ pub(crate) struct Telescoped {
     node_weights: Vec<Block>,
     work: Work,
 }
-
-/// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
-pub(super) const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
 
 /// Probabilities below this are zero, so that the shift does not matter.
 const LEAST: f64 = 1.5e-241;
