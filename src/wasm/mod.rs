@@ -43,10 +43,6 @@ extern "C" {
     pub(crate) fn number(x: f64) -> String;
 }
 
-/// 3 kB less under gzip than the default one, and no slower.
-#[global_allocator]
-static ALLOCATOR: rlsf::SmallGlobalTlsf = rlsf::SmallGlobalTlsf::new();
-
 /// The mean and behind it the covariance.
 #[cfg(feature = "wasm")]
 fn flat(gaussian: crate::math::gaussian::Gaussian) -> Vec<f64> {

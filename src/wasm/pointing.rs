@@ -18,6 +18,10 @@ use crate::posterior::shares;
 use std::sync::Arc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+/// Small rather than fast, and without joining what is freed: a step allocates nothing, and no object here is large.
+#[global_allocator]
+static ALLOCATOR: rlsf::SmallGlobalTlsf = rlsf::SmallGlobalTlsf::new();
+
 /// State of a JavaScript `PointerPredictor`.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
