@@ -21,3 +21,4 @@ mod problem;
 mod sequences;
 mod states;
 mod support;
+mod typed;
