@@ -5,9 +5,9 @@ use std::fmt;
 /// What kind of thing is wrong. The strings of [`Code::as_str`] are part of the interface.
 ///
 /// ```
-/// use whither::{Code, Scenario, Value};
-/// let error = Scenario::from_value(&Value::map([("speed", Value::Number(3.0))])).unwrap_err();
-/// assert_eq!((error.code(), error.path()), (Code::UnknownKey, "speed"));
+/// use whither::{Code, Motion, Observation, Scenario};
+/// let error = Scenario::builder(Motion::brownian(7, 1.0), Observation::deviation(1.0)).build().unwrap_err();
+/// assert_eq!((error.code(), error.path()), (Code::OutOfRange, "motion.dimensions"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -79,11 +79,16 @@ impl Code {
 }
 
 /// An error: a [`Code`], the path of the field (`destinations[3].covariance`), and a message that quotes the
-/// value and says what is legal.
+/// value and names what is legal.
 ///
 /// ```
-/// use whither::{Code, Error};
-/// let error = Error::new(Code::OutOfRange, "none", "must be at least 0 and less than 1, got 2");
+/// use whither::{Arrival, Code, Destination, Error, Motion, Observation, Scenario};
+/// let scenario = Scenario::builder(Motion::brownian(1, 1.0), Observation::deviation(1.0))
+///     .arrival(Arrival::uniform(1.0, 5.0))
+///     .none(2.0)
+///     .destination(Destination::new("there", [9.0]).size(1.0));
+/// let error: Error = scenario.build().unwrap_err();
+/// assert_eq!((error.code(), error.path()), (Code::OutOfRange, "none"));
 /// assert_eq!(error.to_string(), "none: must be at least 0 and less than 1, got 2");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -102,19 +107,18 @@ struct What {
 /// What everything here that can fail returns.
 ///
 /// ```
-/// use whither::{Code, Result, Value, value::Node};
-/// fn half(node: &Node<'_>) -> Result<f64> {
-///     Ok(node.positive()? / 2.0)
+/// use whither::{Motion, Observation, Result, Scenario};
+/// fn built() -> Result<Scenario> {
+///     Scenario::builder(Motion::brownian(1, 1.0), Observation::deviation(-1.0)).build()
 /// }
-/// assert_eq!(half(&Node::root(&Value::Number(3.0), "size")), Ok(1.5));
-/// assert_eq!(half(&Node::root(&Value::Number(-3.0), "size")).unwrap_err().code(), Code::OutOfRange);
+/// assert_eq!(built().unwrap_err().path(), "observation.noise");
 /// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
     /// An error about the field at `path`.
     #[must_use]
-    pub fn new(code: Code, path: impl Into<String>, message: impl Into<String>) -> Self {
+    pub(crate) fn new(code: Code, path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { what: Box::new(What { code, path: path.into(), message: message.into() }) }
     }
 

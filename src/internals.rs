@@ -1,11 +1,10 @@
-//! What the tools and tests of this repository use of the inside. It is no part of the interface and changes with any release.
+//! What the tools and tests of this repository use of the inside; it is not part of the interface and changes with any release.
 //!
 //! Data ([`Value`]) are what JavaScript's objects are read as; each function here reads them and calls the typed interface.
 
 pub use crate::conditionally_markov::DEFAULT_TOLERANCE;
 pub use crate::math::gaussian::{condition, propagate};
 pub use crate::math::log_sum_exp::log_sum_exp;
-pub use crate::math::random::Random;
 pub use crate::model::bridge::Bridge;
 pub use crate::model::destination::Destinations;
 pub use crate::model::endpoint::Endpoint;
@@ -16,10 +15,14 @@ pub use crate::value::{Node, Value};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, GivenSequence, SequenceParameters};
 use crate::error::Result;
 use crate::math::quadrature::Quadrature;
-use crate::model::arrival::Arrival;
+use crate::model::arrival::{Arrival, Grid};
 use crate::model::observation::ObservationNoise;
 use crate::predictor::Predictor;
 use crate::scenario::{Scenario, Setup};
+use crate::snapshot::Snapshot;
+#[cfg(feature = "fit")]
+use crate::study::fit::{self, Fitted, Options, Progress};
+use crate::study::track::Track;
 
 /// A scenario from data.
 ///
@@ -33,6 +36,35 @@ pub fn scenario(value: &Value) -> Result<Scenario> {
 #[must_use]
 pub fn data(scenario: &Scenario) -> Value {
     scenario.to_value()
+}
+
+/// A snapshot from data, unchecked.
+#[must_use]
+pub const fn snapshot(value: Value) -> Snapshot {
+    Snapshot(value)
+}
+
+/// [`Track::scenario`] of a template as data, each destination with the keys of `extra`, an object or nothing.
+///
+/// # Errors
+/// Those of the scenario.
+pub fn track_scenario(track: &Track, template: &Value, extra: &Value) -> Result<Scenario> {
+    track.scenario_of(template, extra)
+}
+
+/// [`fit`](fit::fit) with a template as data, each destination with the keys of `extra`, an object or nothing.
+///
+/// # Errors
+/// Those of [`fit`](fit::fit).
+#[cfg(feature = "fit")]
+pub fn fit(
+    tracks: &[Track],
+    template: &Value,
+    extra: &Value,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress) -> bool,
+) -> Result<(Value, Fitted)> {
+    fit::fit_value(tracks, template, extra, options, progress)
 }
 
 /// The validated parts of a scenario.
@@ -60,6 +92,13 @@ pub fn parts(scenario: &Scenario) -> Parts<'_> {
             Setup::Pointing(_) => None,
         },
     }
+}
+
+/// The nodes of an arrival prior and the logs of their probabilities, for a destination of this distance from the start and this
+/// size.
+#[must_use]
+pub fn grid(arrival: &Arrival, quadrature: &Quadrature, distance: f64, size: f64) -> Grid {
+    arrival.grid(quadrature, distance, size)
 }
 
 /// The noise of one observation of so many axes from data.

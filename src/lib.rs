@@ -10,23 +10,19 @@
 //!
 //! # Start here
 //!
-//! A [`Scenario`] says how the object moves, how it is observed, where it may go and when it may arrive; a [`Predictor`] takes
-//! observations and answers. Both, in five lines:
+//! A [`Scenario`] is how the object moves, how it is observed, where it may go and when it may arrive, built from types and
+//! validated at once; a [`Predictor`] takes observations and answers.
 //!
 //! ```
-//! use whither::{Predictor, Scenario};
+//! use whither::{Arrival, Destination, Initial, Motion, Observation, Predictor, Scenario};
 //!
-//! let scenario: Scenario = serde_json::from_str(r#"{
-//!     "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 0.3 },
-//!     "observation": { "noise": 5 },
-//!     "initial": { "velocity": 8 },
-//!     "arrival": { "type": "uniform", "from": 1200, "to": 3600 },
-//!     "none": 0.05,
-//!     "destinations": [
-//!         { "id": "Cowes", "center": [9000, 0], "size": 400 },
-//!         { "id": "Portsmouth", "center": [14000, 8000], "size": 400 }
-//!     ]
-//! }"#)?;
+//! let scenario = Scenario::builder(Motion::constant_velocity(2, 0.3), Observation::deviation(5.0))
+//!     .initial(Initial::velocity(8.0))
+//!     .arrival(Arrival::uniform(1200.0, 3600.0))
+//!     .none(0.05)
+//!     .destination(Destination::new("Cowes", [9000.0, 0.0]).size(400.0))
+//!     .destination(Destination::new("Portsmouth", [14000.0, 8000.0]).size(400.0))
+//!     .build()?;
 //! let mut vessel = Predictor::new(&scenario);
 //! for minute in 0..10 {
 //!     let t = 60.0 * f64::from(minute);
@@ -34,10 +30,26 @@
 //! }
 //! assert_eq!(vessel.best().unwrap().id, "Cowes");
 //! assert!(vessel.arrival(None)?.unwrap().mean < 2600.0);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! # Ok::<(), whither::Error>(())
 //! ```
 //!
-//! For pointers on a screen there is [`pointer::pointer_scenario`].
+//! The same scenario as JSON, or in any other format of serde's:
+//!
+//! ```
+//! let scenario: whither::Scenario = serde_json::from_str(r#"{
+//!     "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 0.3 }, "observation": { "noise": 5 },
+//!     "initial": { "velocity": 8 }, "arrival": { "type": "uniform", "from": 1200, "to": 3600 }, "none": 0.05,
+//!     "destinations": [
+//!         { "id": "Cowes", "center": [9000, 0], "size": 400 },
+//!         { "id": "Portsmouth", "center": [14000, 8000], "size": 400 }
+//!     ]
+//! }"#)?;
+//! # let _ = scenario;
+//! # Ok::<(), serde_json::Error>(())
+//! ```
+//!
+//! Pointers on a screen have [`pointer_scenario`], movements between places that are known [`ConditionallyMarkovSequence`], recorded
+//! movements [`study`].
 //!
 //! # Features
 //!
@@ -66,7 +78,7 @@
 //! | predictor | the whole engine, as in the papers (in Stone Soup the word means the time update) |
 //! | prediction error | an observation less its prediction; its density is Liang's PED |
 //! | evidence | the density of what was observed, `p(y_2:k given y_1)`, or `p(y_1:k)` where the scenario counts the first observation |
-//! | posterior | what is believed after the observations |
+//! | posterior | the probabilities given the observations |
 //!
 //! # Where each equation is
 //!
@@ -74,25 +86,27 @@
 //! Destination Inference in Object Tracking", 2017. *Rezaie and Li*: "Destination-Directed Trajectory Modeling and Prediction
 //! Using Conditionally Markov Sequences", 2018.
 //!
-//! | equation | what | item |
+//! | equation | what | file |
 //! |---|---|---|
-//! | Liang (1) | transition `F, M, Q` | [`model::motion`] |
-//! | Liang (2) | observation | [`model::observation`] |
-//! | Liang (3) | posterior of the destinations | `posterior::Posterior::update` |
-//! | Liang (4) | the pseudo-observation of the endpoint | [`model::destination`] |
-//! | Liang (5) | likelihood given the arrival time | [`likelihood`] |
-//! | Liang (5), `p(y_1 given D, T)` | the first observation's evidence | [`model::initial::Initial::counted`] |
-//! | Liang (6), Ardeshiri (17) | sum over the arrival time | [`model::arrival`], [`math::quadrature`] |
-//! | Liang (7)-(11) | Algorithm 1 | [`likelihood::algorithm1`] |
-//! | Liang (8) | Kalman prediction | [`math::kalman::Filter::predict`] |
-//! | Liang (9) | the endpoint seen from a state before it | [`model::endpoint`] |
-//! | Liang (10), or the bridged posterior, mixed | state, forecast, paths | `likelihood::node_posterior` |
-//! | Liang (12)-(13) | Algorithm 2 | [`likelihood::algorithm2`] |
-//! | product of Liang (11), telescoped | the default | [`likelihood::pseudo_observation`] |
-//! | Liang's references 12 to 14 | original bridging distributions | [`likelihood::bridging`] |
-//! | Ardeshiri (6), Rezaie and Li (7)-(9) | the transition towards `x_T` | [`model::bridge`] |
-//! | Ardeshiri (12)-(15), Table 1 | single filter, exact and approximate | [`likelihood::single_filter`] |
-//! | Ardeshiri, after Table 1 | the smoothed start | [`math::kalman::Filter::smoothed_start`] |
+//! | Liang (1) | transition `F, M, Q` | `src/model/motion/mod.rs`, and a file for each `type` beside it |
+//! | Liang (2) | observation | `src/model/observation.rs` |
+//! | Liang (3) | posterior of the destinations | `src/posterior/mod.rs` |
+//! | Liang (4) | the pseudo-observation of the endpoint | `src/model/destination.rs` |
+//! | Liang (5) | likelihood given the arrival time | `src/likelihood/mod.rs` |
+//! | Liang (5) for `y_1` | the first observation's evidence | `src/model/initial.rs` |
+//! | Liang (6), Ardeshiri (17) | sum over the arrival time | `src/model/arrival.rs`, by the rules of `src/math/quadrature.rs` |
+//! | Liang (7)-(11) | Algorithm 1 | `src/likelihood/algorithm1.rs` |
+//! | Liang (8) | Kalman prediction | `src/math/kalman.rs` |
+//! | Liang (9) | the endpoint given a state before it | `src/model/endpoint.rs` |
+//! | Liang (10) | state, forecast, paths given the endpoint | `src/likelihood/states.rs`, mixed in `src/likelihood/node_posterior.rs` |
+//! | Liang (11) telescoped, the default | product of prediction errors | `src/likelihood/pseudo_observation/dense.rs` as the oracle; fast in `src/likelihood/pseudo_observation/telescoped.rs`, with the hot loop in `src/math/kernel/mixture.rs` |
+//! | Liang (12)-(13) | Algorithm 2 | `src/likelihood/algorithm2.rs` |
+//! | Liang's references 12 to 14 | original bridging distributions | `src/likelihood/bridging.rs` |
+//! | Ardeshiri (6), Rezaie and Li (7)-(9) | the transition towards `x_T` | `src/model/bridge.rs` |
+//! | Ardeshiri (12)-(15) | single filter, exact and approximate | `src/likelihood/single_filter.rs` |
+//! | Ardeshiri, section 3 | the smoothed start | `src/math/kalman.rs` |
+//! | Rezaie and Li (2)-(3), (10)-(11) | conditionally Markov sequences | `src/conditionally_markov/model.rs` |
+//! | Rezaie and Li (12) | filtering, prediction | `src/conditionally_markov/filter.rs` |
 //!
 //! # Errors in the printed papers
 //!
@@ -105,29 +119,29 @@
 //! - Rezaie and Li (12): the `x_k` on the right-hand side is `x_{k-1}`.
 #![forbid(unsafe_code)]
 
-pub mod conditionally_markov;
-pub mod error;
-pub mod value;
+mod conditionally_markov;
+mod error;
+mod value;
 #[cfg(any(feature = "wasm", feature = "wasm-fit", feature = "wasm-pointing"))]
 #[doc(hidden)]
 pub mod wasm;
 
-pub mod math;
-pub mod model;
+mod math;
+mod model;
 
-pub mod posterior;
+mod posterior;
 
 mod engine;
-pub mod likelihood;
+mod likelihood;
 
-pub mod pointing;
+mod pointing;
 
-pub mod scenario;
+mod scenario;
 
-pub mod predictor;
+mod predictor;
 
-pub mod pointer;
-pub mod snapshot;
+mod pointer;
+mod snapshot;
 pub mod study;
 
 #[doc(hidden)]
@@ -149,13 +163,19 @@ pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};
 pub use model::per_axis::PerAxis;
 pub use pointer::{PointerOptions, PointerTarget, pointer_scenario};
-pub use pointing::parameters::Parameters as PointingConstants;
+pub use pointing::parameters::PointingConstants;
 pub use posterior::Best;
 pub use posterior::arrival_time::ArrivalTime;
 pub use posterior::remaining::Remaining;
 pub use predictor::Predictor;
 pub use scenario::{Scenario, ScenarioBuilder};
-pub use value::Value;
+pub use snapshot::Snapshot;
+
+/// The parts of [`PointingConstants`].
+pub mod pointing_constants {
+    pub use crate::pointing::entry_time::EntryTime;
+    pub use crate::pointing::parameters::{Direction, Power, Start, TimeToGo};
+}
 
 /// The README's Rust code is run as a documentation test.
 #[cfg(doctest)]

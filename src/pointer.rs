@@ -6,7 +6,7 @@ use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::Observation;
 use crate::pointing::defaults::OBSERVATION_NOISE;
-use crate::pointing::parameters::Parameters as PointingConstants;
+use crate::pointing::parameters::PointingConstants;
 use crate::scenario::Scenario;
 
 /// A target on the screen: an icon, a button, a link.

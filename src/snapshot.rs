@@ -6,20 +6,53 @@ use crate::predictor::{Movement, Predictor};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
 use fnv::FnvHasher;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::hash::Hasher;
 use std::sync::Arc;
 
 /// The form of a snapshot. It changes whenever an older reader could misunderstand a newer snapshot.
-pub const VERSION: f64 = 1.0;
+const VERSION: f64 = 1.0;
+
+/// A predictor at one moment: opaque, and of any serde format, JSON included. [`Predictor::snapshot`] writes it,
+/// [`Predictor::restore`] reads it, and checks it then.
+///
+/// ```
+/// use whither::{Arrival, Code, Destination, Motion, Observation, Predictor, Scenario, Snapshot};
+/// let scenario = Scenario::builder(Motion::brownian(1, 1.0), Observation::deviation(0.1))
+///     .arrival(Arrival::uniform(1.0, 2.0))
+///     .destination(Destination::new("there", [5.0]).size(1.0))
+///     .build()?;
+/// let json = serde_json::to_string(&Predictor::new(&scenario).snapshot())?;
+/// let damaged: Snapshot = serde_json::from_str(&json.replace("there", "where"))?;
+/// assert_eq!(Predictor::restore(&damaged).unwrap_err().code(), Code::BadSnapshot);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot(pub(crate) Value);
+
+impl Serialize for Snapshot {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Snapshot {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        Value::deserialize(deserializer).map(Self)
+    }
+}
 
 impl Predictor {
-    /// The predictor as plain data (JSON can carry it): the scenario with the destinations as they are now, and the movement.
+    /// The predictor as it is: the scenario with the destinations as they are now, and the movement. What follows a restored one is
+    /// identical to the bit.
     ///
     /// ```
-    /// # let scenario: whither::Scenario = serde_json::from_str(r#"{
-    /// #   "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 0.1 },
-    /// #   "arrival": { "type": "uniform", "from": 1, "to": 2 },
-    /// #   "destinations": [{ "id": "a", "center": [0], "size": 1 }, { "id": "b", "center": [5], "size": 1 }] }"#).unwrap();
+    /// # use whither::{Arrival, Destination, Motion, Observation, Scenario};
+    /// # let scenario = Scenario::builder(Motion::brownian(1, 1.0), Observation::deviation(0.1))
+    /// #     .arrival(Arrival::uniform(1.0, 2.0))
+    /// #     .destinations([Destination::new("a", [0.0]).size(1.0), Destination::new("b", [5.0]).size(1.0)])
+    /// #     .build()
+    /// #     .unwrap();
     /// let mut predictor = whither::Predictor::new(&scenario);
     /// predictor.observe(0.0, &[1.0]).unwrap();
     /// let json = serde_json::to_string(&predictor.snapshot()).unwrap();
@@ -29,25 +62,25 @@ impl Predictor {
     /// assert_eq!(predictor.probabilities(), restored.probabilities());
     /// ```
     #[must_use]
-    pub fn snapshot(&self) -> Value {
+    pub fn snapshot(&self) -> Snapshot {
         let movement = self.movement.as_ref().map_or(Value::Null, Movement::save);
         let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
         let scenario = self.scenario.to_value_with(&self.destinations);
         let body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);
         let seal = seal(&body);
-        Value::map([
+        Snapshot(Value::map([
             ("whither", Value::text("snapshot")),
             ("version", Value::Number(VERSION)),
             ("seal", seal),
             ("body", body),
-        ])
+        ]))
     }
 
     /// The predictor that [`Predictor::snapshot`] wrote.
     ///
     /// # Errors
     /// `bad-snapshot` where it is damaged, truncated, no snapshot at all, or from another version.
-    pub fn restore(snapshot: &Value) -> Result<Self> {
+    pub fn restore(Snapshot(snapshot): &Snapshot) -> Result<Self> {
         let node = Node::root(snapshot, "snapshot");
         let bad = |path: String, message: String| Error::new(Code::BadSnapshot, path, message);
         let kind = node.get("whither").map(|kind| kind.value().clone());

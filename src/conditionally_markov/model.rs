@@ -1,4 +1,4 @@
-//! The model of a sequence: Rezaie and Li (2)-(3), induced by a Markov model (10)-(11) or given matrix by matrix, and
+//! The model of a sequence: Rezaie and Li (2)-(3), (10)-(11), induced by a Markov model or given matrix by matrix, and
 //! waypoints.
 //!
 //! Some states are pinned: the origin `x_0`, the destination `x_N`, and any between. They have one joint Gaussian density,

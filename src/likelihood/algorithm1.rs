@@ -1,4 +1,4 @@
-//! `algorithm1`: Liang's Algorithm 1, (10)-(11).
+//! `algorithm1`: Liang's Algorithm 1, Liang (7)-(11).
 //!
 //! The prediction of `x_k` is conditioned on the pseudo-observation `a_i` of `x_T`, (10), and the observation's density
 //! under it, (11), is multiplied into the likelihood of each destination and node.

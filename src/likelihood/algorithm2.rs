@@ -1,4 +1,4 @@
-//! `algorithm2`: Liang's Algorithm 2, (12)-(13).
+//! `algorithm2`: Liang's Algorithm 2, Liang (12)-(13).
 //!
 //! The posterior of `x_{k-1}` is conditioned on the pseudo-observation, (12), as a smoother would; then the transition to
 //! `x_k`, itself conditioned on the pseudo-observation, gives the observation's density (13).

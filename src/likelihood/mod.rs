@@ -67,7 +67,7 @@ pub enum Method {
 
 impl Method {
     /// The methods as they are spelt in a scenario.
-    pub const NAMES: [(&'static str, Self); 6] = [
+    pub(crate) const NAMES: [(&'static str, Self); 6] = [
         ("pseudoObservation", Self::PseudoObservation),
         ("algorithm1", Self::Algorithm1),
         ("algorithm2", Self::Algorithm2),

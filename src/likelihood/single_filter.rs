@@ -1,4 +1,4 @@
-//! `singleFilter` and `singleFilterApproximate`: Ardeshiri's predictor, (12) exactly and (15), Table 1.
+//! `singleFilter` and `singleFilterApproximate`: Ardeshiri (12)-(15): (12) exactly, and (15), Table 1.
 //!
 //! One Kalman filter with a fixed-point smoother of `x_1` gives `q(x_1, z)`, `z = G~ x_T`, for every node, (13)-(14). Then
 //! ```text

@@ -1,23 +1,13 @@
 //! The Kalman filter over the pair (state at the first observation, state now).
 //!
-//! Liang (8) and the usual correction, in the array form: what is kept is a root of the covariance. The first state rides along, so that the filter is also the fixed-point smoother
-//! of Ardeshiri, section 3. Covariances and gains depend on no value: one of each serves every column of means. There is
+//! Liang (8) and the usual correction, in the array form: what is kept is a root of the covariance. The first state is kept beside
+//! the present one, so that the filter is also the fixed-point smoother of Ardeshiri, section 3. Covariances and gains depend on no value: one of each serves every column of means. There is
 //! one column where the motion model does not know the destination, and one for each destination where it does.
 
 use super::gaussian::{Gaussian, condition_root, root, square, triangularise};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A linear observation `y = G x + v`, `v ~ N(0, V)`, as it was made: missing axes have no row.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::{Value, model::observation::ObservationModel, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "noise": [1, 2] }"#).unwrap();
-/// let model = ObservationModel::read(&Node::root(&value, "observation"), 2, 4).unwrap();
-/// let measurement = model.measurement(&[None, Some(5.0)], None).unwrap(); // the first axis is missing
-/// assert_eq!(measurement.value, dvector![5.0]);
-/// assert_eq!((measurement.matrix, measurement.noise), (dmatrix![0.0, 1.0, 0.0, 0.0], dmatrix![4.0]));
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     /// `y`, of length `m`; zero where nothing was measured at all.
@@ -39,18 +29,6 @@ impl Measurement {
 }
 
 /// Mean columns and a root of one covariance of `[x_1; x_k]`, and the log evidence `log p(y_2:k | y_1)` of each column.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::math::{gaussian::Gaussian, kalman::{Filter, Measurement, TimeUpdate}};
-/// // a random walk from N(0, 1), one second, noise 1; then 3 is observed with the variance 1
-/// let mut filter = Filter::new(&Gaussian { mean: dvector![0.0], covariance: dmatrix![1.0] }, 1);
-/// let (one, zero) = (dmatrix![1.0], dmatrix![0.0]);
-/// filter.predict(&TimeUpdate { transition: &one, offsets: &zero, noise: &one });
-/// assert!(filter.correct(&Measurement { value: dvector![3.0], matrix: one.clone(), noise: one.clone() }));
-/// assert!((filter.mean(0)[0] - 2.0).abs() < 1e-14); // it is two thirds of the way
-/// assert!((filter.smoothed_start(0).mean[0] - 1.0).abs() < 1e-14); // and began at one third
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filter {
     /// Number of components `s` of one state.
@@ -64,15 +42,6 @@ pub struct Filter {
 }
 
 /// The time update of a filter: `x_k = F x_{k-1} + M + e`, `e ~ N(0, Q)`, with `M` one column or one for each destination.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::math::{gaussian::Gaussian, kalman::{Filter, TimeUpdate}};
-/// let mut filter = Filter::new(&Gaussian { mean: dvector![3.0], covariance: dmatrix![5.0] }, 1);
-/// filter.predict(&TimeUpdate { transition: &dmatrix![2.0], offsets: &dmatrix![1.0], noise: &dmatrix![4.0] });
-/// assert_eq!(filter.mean(0)[0], 7.0); // 2 3 + 1
-/// assert!((filter.current_covariance()[(0, 0)] - 24.0).abs() < 1e-13); // 2 5 2 + 4
-/// ```
 #[derive(Clone, Debug)]
 pub struct TimeUpdate<'a> {
     /// `F`.

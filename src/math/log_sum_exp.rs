@@ -1,12 +1,6 @@
 //! Sums of exponentials, in logs.
 
 /// `ln sum_i exp(v_i)`, shifted by the largest so that nothing overflows; minus infinity for nothing at all.
-///
-/// ```
-/// use whither::math::log_sum_exp::log_sum_exp;
-/// assert_eq!(log_sum_exp(&[-1e4, -1e4]), -1e4 + 2f64.ln());
-/// assert_eq!(log_sum_exp(&[f64::NEG_INFINITY]), f64::NEG_INFINITY);
-/// ```
 #[must_use]
 pub fn log_sum_exp(values: &[f64]) -> f64 {
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -18,12 +12,6 @@ pub fn log_sum_exp(values: &[f64]) -> f64 {
 
 /// Replaces logarithms by the shares of their numbers in the sum, and returns the logarithm of that sum; none, and nothing
 /// has changed, where it is zero or no number. The shares sum to one however large the logarithms are.
-///
-/// ```
-/// let mut values = [-1e40, -1e40, f64::NEG_INFINITY];
-/// whither::math::log_sum_exp::share(&mut values);
-/// assert_eq!(values, [0.5, 0.5, 0.0]);
-/// ```
 pub fn share(values: &mut [f64]) -> Option<f64> {
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if !largest.is_finite() || values.iter().any(|value| value.is_nan()) {
@@ -47,6 +35,15 @@ mod tests {
             let shifted: Vec<f64> = values.iter().map(|v| v + shift).collect();
             assert!((log_sum_exp(&shifted) - shift - 6f64.ln()).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn shares_sum_to_one_however_large_the_logarithms_are() {
+        let mut values = [-1e40, -1e40, f64::NEG_INFINITY];
+        assert_eq!(share(&mut values), Some(-1e40 + 2f64.ln()));
+        assert_eq!(values, [0.5, 0.5, 0.0]);
+        assert_eq!(share(&mut [f64::NEG_INFINITY]), None);
+        assert_eq!(share(&mut [0.0, f64::NAN]), None);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Quadrature over an interval: nodes and weights that sum to one.
+//! Quadrature over an interval, for Liang (6): nodes and weights that sum to one.
 
 use super::cosine::cosine;
 use super::random::Random;
@@ -140,7 +140,7 @@ impl Quadrature {
 
     /// How many nodes.
     #[must_use]
-    pub const fn points(&self) -> usize {
+    pub(crate) const fn points(&self) -> usize {
         match *self {
             Self::Simpson { points }
             | Self::Trapezoid { points }
@@ -151,7 +151,7 @@ impl Quadrature {
 
     /// The rule as a scenario writes it.
     #[must_use]
-    pub fn to_value(&self) -> Value {
+    pub(crate) fn to_value(&self) -> Value {
         let (rule, _) = RULES[self.place()];
         let mut entries =
             vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(self.points() as f64))];
@@ -163,7 +163,7 @@ impl Quadrature {
 
     /// The nodes and weights over `[0, 1]`.
     #[must_use]
-    pub fn rule(&self) -> Rule {
+    pub(crate) fn rule(&self) -> Rule {
         match *self {
             Self::Simpson { points } => evenly(points, |i| match i {
                 _ if i == 0 || i + 1 == points => 1.0,
@@ -180,7 +180,7 @@ impl Quadrature {
     /// Nodes and weights for the standard normal density: the rule over four deviations to either side, each weight times
     /// the density there; `monteCarlo` draws from the density itself.
     #[must_use]
-    pub fn normal_rule(&self) -> Rule {
+    pub(crate) fn normal_rule(&self) -> Rule {
         if let Self::MonteCarlo { points, seed } = *self {
             return drawn(points, seed, Random::normal).normalised();
         }

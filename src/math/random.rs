@@ -7,7 +7,7 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 /// A stream of random numbers that its seed fixes.
 ///
 /// ```
-/// use whither::math::random::Random;
+/// use whither::study::simulate::Random;
 /// assert_eq!(Random::new(7).uniform(), Random::new(7).uniform());
 /// assert_ne!(Random::new(7).normal(), Random::new(8).normal());
 /// ```

@@ -21,14 +21,6 @@ use nalgebra::DMatrix;
 const TERMS: usize = 19;
 
 /// The series of one equation, ready for any step.
-///
-/// ```
-/// use nalgebra::dmatrix;
-/// use whither::math::van_loan::VanLoan;
-/// // position and velocity, driven by white noise of unit density: Q[0, 0] = h^3 / 3
-/// let equation = VanLoan::new(&dmatrix![0.0, 1.0; 0.0, 0.0], &dmatrix![0.0, 0.0; 0.0, 1.0]);
-/// assert!((equation.step(3.0).noise[(0, 0)] - 9.0).abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug)]
 pub struct VanLoan {
     /// `|A|`, the largest sum of a row's absolute values (1 where `A` is zero); time is measured in `1 / |A|`.
@@ -42,15 +34,6 @@ pub struct VanLoan {
 }
 
 /// What an equation is over one step.
-///
-/// ```
-/// use nalgebra::dmatrix;
-/// use whither::math::van_loan::VanLoan;
-/// // decay at the rate 1, for ln 2: half is left, and the integrals are 1 - 1/2 and (1 - 1/4) / 2
-/// let step = VanLoan::new(&dmatrix![-1.0], &dmatrix![1.0]).step(2f64.ln());
-/// assert!((step.transition[(0, 0)] - 0.5).abs() < 1e-14);
-/// assert!((step.integral[(0, 0)] - 0.5).abs() < 1e-14 && (step.noise[(0, 0)] - 0.375).abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// `F`.
@@ -142,4 +125,26 @@ fn sum(coefficients: &[DMatrix<f64>], time: f64) -> DMatrix<f64> {
         sum *= time;
         sum
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    #[test]
+    fn white_acceleration_has_the_noise_of_its_integrals() {
+        let equation = VanLoan::new(&dmatrix![0.0, 1.0; 0.0, 0.0], &dmatrix![0.0, 0.0; 0.0, 1.0]);
+        // h^3 / 3, h^2 / 2 and h
+        assert!((equation.step(3.0).noise - dmatrix![9.0, 4.5; 4.5, 3.0]).amax() < 1e-14);
+    }
+
+    #[test]
+    fn decay_halves_after_ln_2() {
+        // the integrals of exp(-u) and its square are 1 - 1/2 and (1 - 1/4) / 2
+        let step = VanLoan::new(&dmatrix![-1.0], &dmatrix![1.0]).step(2f64.ln());
+        for (found, expected) in [(step.transition, 0.5), (step.integral, 0.5), (step.noise, 0.375)] {
+            assert!((found[0] - expected).abs() < 1e-14);
+        }
+    }
 }

@@ -175,7 +175,7 @@ impl Arrival {
 
     /// The prior as a scenario writes it.
     #[must_use]
-    pub fn to_value(&self) -> Value {
+    pub(crate) fn to_value(&self) -> Value {
         match self {
             Self::Uniform { from, to } => interval_value("uniform", *from, *to),
             Self::Horizon { from, to } => interval_value("horizon", *from, *to),
@@ -200,7 +200,7 @@ impl Arrival {
 
     /// How many nodes it has.
     #[must_use]
-    pub fn points(&self, quadrature: &Quadrature) -> usize {
+    pub(crate) fn points(&self, quadrature: &Quadrature) -> usize {
         match self {
             Self::Discrete { times, .. } => times.len(),
             _ => quadrature.points(),
@@ -209,20 +209,20 @@ impl Arrival {
 
     /// Whether it is a prior on the time to go at every step.
     #[must_use]
-    pub const fn is_horizon(&self) -> bool {
+    pub(crate) const fn is_horizon(&self) -> bool {
         matches!(self, Self::Horizon { .. })
     }
 
     /// Whether it depends on the destination's distance and size.
     #[must_use]
-    pub const fn needs_distance(&self) -> bool {
+    pub(crate) const fn needs_distance(&self) -> bool {
         matches!(self, Self::Fitts { .. })
     }
 
     /// The nodes and the logs of their probabilities. `distance`, from the first observation to the destination's
     /// centre, and `size`, its extent, matter only where [`Arrival::needs_distance`].
     #[must_use]
-    pub fn grid(&self, quadrature: &Quadrature, distance: f64, size: f64) -> Grid {
+    pub(crate) fn grid(&self, quadrature: &Quadrature, distance: f64, size: f64) -> Grid {
         match self {
             Self::Uniform { from, to } | Self::Horizon { from, to } => {
                 let rule = quadrature.rule();

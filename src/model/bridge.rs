@@ -14,17 +14,6 @@ use crate::math::gaussian::condition;
 use nalgebra::{DMatrix, DVector};
 
 /// `x_k = previous x_{k-1} + destination (G~ x_T) + offset + e`, `e ~ N(0, covariance)`.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use whither::model::bridge::Bridge;
-/// // a Brownian bridge: a step of 1, 3 more to go
-/// let one = dmatrix![1.0];
-/// let bridge = Bridge::new(&one, &dmatrix![1.0], &one, &dmatrix![3.0], 1).unwrap();
-/// assert!((bridge.covariance[(0, 0)] - 0.75).abs() < 1e-14);
-/// // a drift of 2 a second changes nothing once the end is known
-/// assert!(bridge.offset(&dvector![2.0], &dvector![6.0])[0].abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Bridge {
     /// `A = (I - K B) F_h`, `s` by `s`; Rezaie and Li's `G_{k,k-1}` (7).
@@ -42,16 +31,6 @@ impl Bridge {
     /// the first `components` of the state at the end; none where they are determined already, `S` being singular.
     ///
     /// It depends on no offset, so where the offset alone depends on the destination, one serves all destinations.
-    ///
-    /// ```
-    /// use nalgebra::dmatrix;
-    /// // a Brownian bridge: a step of 1, 3 more to go, so a quarter of the way towards the end
-    /// let one = dmatrix![1.0];
-    /// let bridge = whither::model::bridge::Bridge::new(&one, &dmatrix![1.0], &one, &dmatrix![3.0], 1).unwrap();
-    /// for (found, expected) in [(bridge.previous[0], 0.75), (bridge.destination[0], 0.25), (bridge.covariance[0], 0.75)] {
-    ///     assert!((found - expected).abs() < 1e-15);
-    /// }
-    /// ```
     #[must_use]
     pub fn new(
         step_transition: &DMatrix<f64>,
@@ -111,6 +90,18 @@ mod tests {
         let bridge = Bridge::new(&f_h, &q_h, &f_r, &q_r, components).unwrap();
         let offset = bridge.offset(&m_h, &m_r);
         (bridge, offset)
+    }
+
+    #[test]
+    fn a_brownian_bridge_goes_its_share_of_the_way() {
+        // a step of 1, 3 more to go
+        let one = dmatrix![1.0];
+        let bridge = Bridge::new(&one, &one, &one, &dmatrix![3.0], 1).unwrap();
+        for (found, expected) in [(&bridge.previous, 0.75), (&bridge.destination, 0.25), (&bridge.covariance, 0.75)] {
+            assert!((found[0] - expected).abs() < 1e-15);
+        }
+        // a drift of 2 a second changes nothing once the end is known
+        assert!(bridge.offset(&dvector![2.0], &dvector![6.0])[0].abs() < 1e-14);
     }
 
     #[test]

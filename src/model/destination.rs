@@ -12,7 +12,7 @@ mod class;
 mod list;
 
 pub use class::EndpointClass;
-pub use list::{Destinations, MOST_DESTINATIONS};
+pub use list::Destinations;
 
 /// One nominal destination, as it is described: a box, whose endpoint has the covariance of a uniform density over it,
 /// `size^2 / 12` for each side, or a Gaussian. What takes destinations validates them.
@@ -193,7 +193,7 @@ impl Destination {
 
     /// The scenario's own form.
     #[must_use]
-    pub fn to_value(&self) -> Value {
+    pub(crate) fn to_value(&self) -> Value {
         let fields = [
             ("id", Some(Value::text(&self.id))),
             ("center", self.center.as_ref().map(Value::numbers)),

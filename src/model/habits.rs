@@ -39,19 +39,6 @@ pub struct Learning {
 }
 
 /// What was chosen so far.
-///
-/// ```
-/// let scenario: whither::Scenario = serde_json::from_str(r#"{
-///     "motion": { "type": "brownian", "dimensions": 1, "noise": 1 }, "observation": { "noise": 0.1 },
-///     "arrival": { "type": "uniform", "from": 1, "to": 2 }, "learning": { "strength": 2 },
-///     "destinations": [{ "id": "home", "center": [0], "size": 1 }, { "id": "work", "center": [5], "size": 1 }]
-/// }"#).unwrap();
-/// let learning = scenario.learning.as_ref().unwrap();
-/// let mut habits = whither::model::habits::Habits::default();
-/// habits.chosen(learning, "work");
-/// habits.chosen(learning, "work");
-/// assert_eq!(habits.priors(learning, &scenario.destinations), [0.25, 0.75]); // (1, 1 + 2) of 4
-/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Habits {
     /// Under an empty `last`.
@@ -141,7 +128,7 @@ impl Learning {
 
     /// The key as it is written.
     #[must_use]
-    pub fn to_value(&self) -> Value {
+    pub(crate) fn to_value(&self) -> Value {
         Value::map([
             ("strength", Value::Number(self.strength)),
             ("forgetting", Value::Number(self.forgetting)),

@@ -1,4 +1,4 @@
-//! The density of the state at the first observation, before that observation.
+//! The density of the state at the first observation, before that observation; and whether that observation counts in Liang (5).
 
 use super::matrix::Matrix;
 use super::observation::ObservationModel;

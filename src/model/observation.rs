@@ -200,8 +200,3 @@ impl ObservationModel {
         })
     }
 }
-
-/// Reads a covariance matrix, `n` by `n`, symmetric and positive definite.
-pub fn read_covariance(node: &Node<'_>, n: usize) -> Result<DMatrix<f64>> {
-    Matrix::read(node)?.covariance(node.place(), n)
-}

@@ -3,7 +3,7 @@
 //! An observation at the time of the last one replaces it: clocks that are rounded, and events stamped by the frame, give several
 //! places one time, and of those the last is where the pointer was then. So the course keeps how it stood before the last one.
 
-use super::parameters::Parameters;
+use super::parameters::PointingConstants;
 use super::{Space, Vector, dot, minus, vector};
 use crate::error::Result;
 use crate::math::kernel::mixture::AXES;
@@ -134,7 +134,7 @@ pub(crate) struct Course<S> {
 impl<S: Space> Course<S> {
     /// Begins at the first observation, of variance `variances` in each axis.
     #[must_use]
-    pub fn begin(space: S, parameters: &Parameters, position: &[f64], variances: &[f64]) -> Self {
+    pub fn begin(space: S, parameters: &PointingConstants, position: &[f64], variances: &[f64]) -> Self {
         let mut start = Vector::default();
         let mut axes = [begin(0.0, 0.0, 0.0); AXES];
         for (j, (&y, &variance)) in position.iter().zip(variances).enumerate().take(3) {
@@ -157,7 +157,13 @@ impl<S: Space> Course<S> {
 
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
     /// of the last one it replaces that, in the axes that it has, and at the first time the movement begins with it.
-    pub fn advance(&mut self, parameters: &Parameters, elapsed: f64, position: &[Option<f64>], variances: &[f64]) {
+    pub fn advance(
+        &mut self,
+        parameters: &PointingConstants,
+        elapsed: f64,
+        position: &[Option<f64>],
+        variances: &[f64],
+    ) {
         let (observed, d) = (Observed::new(position, variances), self.dimensions());
         if elapsed == self.elapsed {
             self.last = observed.or(&self.last);
@@ -177,7 +183,7 @@ impl<S: Space> Course<S> {
     }
 
     /// Takes in `last`.
-    fn follow(&mut self, parameters: &Parameters, elapsed: f64) {
+    fn follow(&mut self, parameters: &PointingConstants, elapsed: f64) {
         let Observed { position, variances } = self.last;
         let step = elapsed - self.elapsed;
         let velocity = self.velocity();
@@ -193,7 +199,7 @@ impl<S: Space> Course<S> {
     /// How far the movement has begun: by the time `t` it should have been `restDistance (1 - power.time/t)^2` from its start, and
     /// nothing before `power.time`, since until then no rest differs from a slow beginning.
     #[must_use]
-    pub fn onset(&self, parameters: &Parameters) -> Onset {
+    pub fn onset(&self, parameters: &PointingConstants) -> Onset {
         let expected = parameters.rest_distance * (1.0 - parameters.power.time / self.elapsed).max(0.0).powi(2);
         let way = self.farthest.sqrt();
         if way >= expected { Onset::BEGUN } else { Onset { shortfall: expected - way, share: way / expected } }

@@ -4,7 +4,7 @@
 //! Lengths are px, times s, angles radians.
 
 use super::entry_time::EntryTime;
-use super::parameters::{Direction, Parameters, Power, Start, TimeToGo};
+use super::parameters::{Direction, PointingConstants, Power, Start, TimeToGo};
 
 /// Deviation of an observation.
 pub(crate) const OBSERVATION_NOISE: f64 = 0.5;
@@ -13,7 +13,7 @@ pub(crate) const OBSERVATION_NOISE: f64 = 0.5;
 const SCALES: [f64; 2] = [467.0, 4200.0];
 
 /// All constants but the scales.
-const CONSTANTS: Parameters = Parameters {
+const CONSTANTS: PointingConstants = PointingConstants {
     filter_noise: 1100.0,
     speed_noise: 2.0,
     first_speed: [50.0; 3],
@@ -41,7 +41,7 @@ const CONSTANTS: Parameters = Parameters {
 pub(crate) const REMAINING: EntryTime =
     EntryTime { offset: 0.076, nodes: 0.443, near: -4.238, distance: 20.0, elapsed: 1.644, low: -1.087, high: 0.881 };
 
-impl Default for Parameters {
+impl Default for PointingConstants {
     fn default() -> Self {
         Self { scales: SCALES.to_vec(), ..CONSTANTS }
     }

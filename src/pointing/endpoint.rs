@@ -9,7 +9,7 @@
 //! covariance `S_i` its logarithm is a quadratic in `a_i - x`.
 
 use super::course::Course;
-use super::parameters::{Parameters, TimeToGo};
+use super::parameters::{PointingConstants, TimeToGo};
 use super::targets::Extent;
 use super::{Space, Symmetric, Vector, dot, minus};
 use crate::math::gaussian::LN_2_PI;
@@ -73,7 +73,7 @@ pub(crate) struct Nodes<S> {
 impl<S: Space> Nodes<S> {
     /// The pairs after the latest observation.
     #[must_use]
-    pub fn new(parameters: &Parameters, course: &Course<S>) -> Self {
+    pub fn new(parameters: &PointingConstants, course: &Course<S>) -> Self {
         let TimeToGo { to, points, median, .. } = parameters.time_to_go;
         let mut times = parameters.time_to_go.nodes();
         let mut log_times: Vec<f64> = times.iter().map(|time| (time / median).ln()).collect();
@@ -91,7 +91,7 @@ impl<S: Space> Nodes<S> {
     }
 
     /// The pairs after one more observation.
-    pub fn refresh(&mut self, parameters: &Parameters, course: &Course<S>) {
+    pub fn refresh(&mut self, parameters: &PointingConstants, course: &Course<S>) {
         let s = Lanes::splat;
         let speed = course.speed();
         (self.position, self.velocity) = (course.position(), course.velocity());

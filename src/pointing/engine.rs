@@ -2,7 +2,7 @@
 
 use super::Pointing;
 use super::course::Course;
-use super::parameters::{Parameters, axis_variances};
+use super::parameters::{PointingConstants, axis_variances};
 use super::space::AnySpace;
 use super::targets::Targets;
 use crate::engine::{Engine, Observed};
@@ -25,7 +25,7 @@ impl PointingEngine {
     /// # Errors
     /// `out-of-range` where the noise is correlated between axes.
     pub fn begin(
-        parameters: Arc<Parameters>,
+        parameters: Arc<PointingConstants>,
         destinations: &Destinations,
         start: &[f64],
         first: &Observed<'_>,
@@ -38,7 +38,7 @@ impl PointingEngine {
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, parameters: Arc<Parameters>, destinations: &Destinations) -> Result<Self> {
+    pub fn load(node: &Node<'_>, parameters: Arc<PointingConstants>, destinations: &Destinations) -> Result<Self> {
         let course = Course::load(node, AnySpace(destinations.dimensions()))?;
         Ok(Self(Pointing::resume(parameters, targets(destinations), course)))
     }

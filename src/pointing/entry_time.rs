@@ -7,6 +7,12 @@ use crate::math::small_gaussian::{inverse, times};
 /// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
 /// that it may be going to, and how long the movement has lasted. The nodes' own mean is too early, since their work is to
 /// rank destinations.
+///
+/// ```
+/// use whither::{PointingConstants, pointing_constants::EntryTime};
+/// let mouse: EntryTime = PointingConstants::default().remaining.unwrap();
+/// assert!(mouse.low < 0.0 && 0.0 < mouse.high);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryTime {
     /// `ln median = offset + nodes E[ln R] + near E[distance/(distance + e)] + elapsed t/(t + 1 s)`, with `e` the way to the
@@ -30,7 +36,7 @@ pub struct EntryTime {
 impl EntryTime {
     /// How near a destination is, from 1 in it to 0 far away: `offset` is the way to its centre, `extent` is its own.
     #[must_use]
-    pub fn nearness(&self, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
+    pub(crate) fn nearness(&self, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
         // a box has the variance side^2/12, so its half side is the root of three variances; the edge is the ellipse in it
         let (precision, _) = inverse(&extent.covariance, dimensions);
         let half_sides = (dot(&times(&precision, offset), offset) / 3.0).sqrt();
@@ -40,7 +46,7 @@ impl EntryTime {
 
     /// The median, and the ends of the interval, in seconds; within what a clock can tell apart.
     #[must_use]
-    pub fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
         let median =
             self.offset + self.nodes * mean_log_node + self.near * nearness + self.elapsed * elapsed / (elapsed + 1.0);
         [median, median + self.low, median + self.high].map(|log| log.clamp(-20.0, 20.0).exp())

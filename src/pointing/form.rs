@@ -1,7 +1,7 @@
 //! The constants as scenarios have them, under the key `pointing`, and their validation.
 
 use super::entry_time::EntryTime;
-use super::parameters::{Direction, Parameters, Power, Start, TimeToGo, axis_variances};
+use super::parameters::{Direction, PointingConstants, Power, Start, TimeToGo, axis_variances};
 use super::vector;
 use crate::error::{Code, Error, Result};
 use crate::model::initial::InitialDensity;
@@ -32,7 +32,7 @@ fn object<const N: usize>(numbers: Numbers<N>) -> Value {
     Value::map(numbers.map(|(key, x, _)| (key, Value::Number(x))))
 }
 
-impl Parameters {
+impl PointingConstants {
     /// Reads `{ noise, alongNoise, .. }`; what the filter takes from the scenario is left as it is by default.
     pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&[

@@ -4,7 +4,7 @@ use super::Vector;
 use super::course::Onset;
 use super::evidence::{log_near, log_start};
 use super::minus;
-use super::parameters::Parameters;
+use super::parameters::PointingConstants;
 use super::targets::Targets;
 use crate::math::kernel::vectors::{Block, WIDTH};
 
@@ -43,7 +43,7 @@ impl FromStart {
     pub fn update(
         &mut self,
         targets: &Targets,
-        parameters: &Parameters,
+        parameters: &PointingConstants,
         dimensions: usize,
         log_volume: f64,
         start: &Vector,

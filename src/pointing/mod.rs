@@ -41,18 +41,12 @@ use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
 use from_start::FromStart;
 use kernel::{Now, Work};
-use parameters::Parameters;
+use parameters::PointingConstants;
 use space::Space;
 use std::sync::Arc;
 use targets::Targets;
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
-///
-/// ```
-/// use whither::pointing::{Vector, dot, vector};
-/// let way: Vector = vector(&[3.0, 4.0]);
-/// assert_eq!((way, dot(&way, &way)), ([3.0, 4.0, 0.0], 25.0));
-/// ```
 pub type Vector = [f64; 3];
 
 /// The inner product.
@@ -84,7 +78,7 @@ pub fn vector(components: &[f64]) -> Vector {
 /// One movement under the pointing model.
 #[derive(Clone, Debug)]
 pub(crate) struct Pointing<S> {
-    parameters: Arc<Parameters>,
+    parameters: Arc<PointingConstants>,
     targets: Arc<Targets>,
     /// That of the start density.
     log_volume: f64,
@@ -99,7 +93,7 @@ impl<S: Space> Pointing<S> {
     #[must_use]
     pub fn begin(
         space: S,
-        parameters: Arc<Parameters>,
+        parameters: Arc<PointingConstants>,
         targets: Arc<Targets>,
         position: &[f64],
         variances: &[f64],
@@ -110,7 +104,7 @@ impl<S: Space> Pointing<S> {
 
     /// Goes on from a course that was saved.
     #[must_use]
-    pub fn resume(parameters: Arc<Parameters>, targets: Arc<Targets>, course: Course<S>) -> Self {
+    pub fn resume(parameters: Arc<PointingConstants>, targets: Arc<Targets>, course: Course<S>) -> Self {
         let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets));
         let log_volume = parameters.start.log_volume(course.dimensions());
         Self { parameters, targets, log_volume, course, nodes, from_start, work: Work::default() }
@@ -216,7 +210,7 @@ impl<S: Space> Pointing<S> {
 
     /// The constants.
     #[must_use]
-    pub fn parameters(&self) -> &Parameters {
+    pub fn parameters(&self) -> &PointingConstants {
         &self.parameters
     }
 }

@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 /// touch.rest_distance = 0.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parameters {
+pub struct PointingConstants {
     /// Filter: root of the noise's spectral density at rest (`motion.noise`).
     pub(crate) filter_noise: f64,
     /// Filter: how that root grows with the speed (`motion.speedNoise`).
@@ -57,6 +57,13 @@ pub struct Parameters {
 }
 
 /// A discrete prior on the time to go, log-normal about a median that follows the speed.
+///
+/// ```
+/// use whither::{PointingConstants, pointing_constants::TimeToGo};
+/// let mouse = PointingConstants::default().time_to_go;
+/// let touch = TimeToGo { median: 1.2 * mouse.median, ..mouse }; // fingers are slower
+/// assert!(touch.from < touch.median && touch.median < touch.to);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeToGo {
     /// The first node.
@@ -74,6 +81,13 @@ pub struct TimeToGo {
 }
 
 /// Density of the endpoint given the start: `(distance^2 + core^2)^(-exponent/2)` within `reach`.
+///
+/// ```
+/// use whither::{PointingConstants, pointing_constants::Start};
+/// let mouse = PointingConstants::default().start;
+/// let desk = Start { reach: 2.0 * mouse.reach, ..mouse }; // two screens side by side
+/// assert!(desk.core < desk.reach);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// How fast it falls; `d - 1` makes every distance equally likely.
@@ -85,6 +99,13 @@ pub struct Start {
 }
 
 /// The angle at the start between where the pointer is and where a destination is.
+///
+/// ```
+/// use whither::{PointingConstants, pointing_constants::Direction};
+/// let mut constants = PointingConstants::default();
+/// constants.direction = Direction { power: 0.0, ..constants.direction }; // ignored
+/// assert_eq!(constants.direction.power, 0.0);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Direction {
     /// Weight.
@@ -100,6 +121,13 @@ pub struct Direction {
 }
 
 /// A power that grows from `from` to `to` with the time constant `time`.
+///
+/// ```
+/// use whither::{PointingConstants, pointing_constants::Power};
+/// let mut constants = PointingConstants::default();
+/// constants.power = Power { from: 1.0, to: 1.0, time: 1.0 }; // the ratio of the densities as it is
+/// assert_ne!(constants, PointingConstants::default());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
     /// At the first observation.
@@ -113,7 +141,7 @@ pub struct Power {
 impl Power {
     /// The power after `elapsed` seconds.
     #[must_use]
-    pub fn after(&self, elapsed: f64) -> f64 {
+    pub(crate) fn after(&self, elapsed: f64) -> f64 {
         self.to - (self.to - self.from) * (-elapsed / self.time).exp()
     }
 }
@@ -134,7 +162,7 @@ pub fn axis_variances(noise: &DMatrix<f64>, path: &str) -> Result<[f64; 3]> {
 impl TimeToGo {
     /// The nodes.
     #[must_use]
-    pub fn nodes(&self) -> Vec<f64> {
+    pub(crate) fn nodes(&self) -> Vec<f64> {
         let (from, to) = (self.from.ln(), self.to.ln());
         let last = self.points - 1;
         (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
@@ -142,7 +170,7 @@ impl TimeToGo {
 
     /// The weights at a speed of the nodes with these logarithms over that of the median; they sum to one. `ones` has zeros
     /// where there is no node.
-    pub fn weights(&self, log_nodes: &[Block], ones: &[Block], speed: f64, into: &mut [Block]) {
+    pub(crate) fn weights(&self, log_nodes: &[Block], ones: &[Block], speed: f64, into: &mut [Block]) {
         let s = Lanes::splat;
         let (middle, over) = (s(self.speed_exponent * ((speed + 50.0) / 1000.0).ln()), s(1.0 / self.spread));
         let mut top = s(f64::MIN);
@@ -162,7 +190,7 @@ impl TimeToGo {
 impl Start {
     /// `ln` of the integral of `(r^2 + core^2)^(-exponent/2)` over the ball of radius `reach`.
     #[must_use]
-    pub fn log_volume(&self, dimensions: usize) -> f64 {
+    pub(crate) fn log_volume(&self, dimensions: usize) -> f64 {
         // r = core sinh(u) makes the integrand smooth on every scale; Simpson's rule on it.
         const INTERVALS: usize = 512;
         let surface = match dimensions {

@@ -16,6 +16,7 @@ pub struct Extent {
 
 impl Extent {
     /// A uniform density over a box with these sides: variances of `side^2 / 12`.
+    #[cfg(any(test, feature = "wasm-pointing"))]
     #[must_use]
     pub fn of_box(sides: Vector) -> Self {
         let [x, y, z] = sides;

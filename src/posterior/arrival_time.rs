@@ -3,11 +3,17 @@
 /// Arrival times and their probabilities.
 ///
 /// ```
-/// use whither::ArrivalTime;
-/// let arrival = ArrivalTime::from_nodes(&[(5.0, 3.0), (1.0, 1.0)]);
-/// assert_eq!((&arrival.times[..], &arrival.probabilities[..]), (&[1.0, 5.0][..], &[0.25, 0.75][..]));
-/// assert_eq!(arrival.mean, 4.0);
-/// assert!((arrival.deviation - 3f64.sqrt()).abs() < 1e-14); // (9 + 3 * 1) / 4
+/// use whither::{Arrival, ArrivalTime, Destination, Motion, Observation, Predictor, Scenario};
+/// let scenario = Scenario::builder(Motion::brownian(1, 1.0), Observation::deviation(1.0))
+///     .arrival(Arrival::Discrete { times: vec![1.0, 5.0], weights: vec![1.0, 3.0] })
+///     .destination(Destination::new("there", [9.0]).size(1.0))
+///     .build()?;
+/// let mut predictor = Predictor::new(&scenario);
+/// predictor.observe(10.0, &[0.0])?; // the first observation alone is no evidence: the prior
+/// let arrival: ArrivalTime = predictor.arrival(None)?.unwrap();
+/// assert_eq!(arrival.times, [11.0, 15.0]);
+/// assert!((arrival.mean - 14.0).abs() < 1e-12 && (arrival.deviation - 3f64.sqrt()).abs() < 1e-12);
+/// # Ok::<(), whither::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrivalTime {
@@ -24,7 +30,7 @@ pub struct ArrivalTime {
 impl ArrivalTime {
     /// The posterior for nodes that may repeat and be in any order; `weights` need not sum to one.
     #[must_use]
-    pub fn from_nodes(nodes: &[(f64, f64)]) -> Self {
+    pub(crate) fn from_nodes(nodes: &[(f64, f64)]) -> Self {
         let mut times: Vec<f64> = nodes.iter().map(|(time, _)| *time).collect();
         times.sort_unstable_by(f64::total_cmp);
         times.dedup();
@@ -63,6 +69,14 @@ impl ArrivalTime {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nodes_in_any_order_have_the_moments_of_their_weights() {
+        let arrival = ArrivalTime::from_nodes(&[(5.0, 2.0), (1.0, 1.0), (5.0, 1.0)]);
+        assert_eq!((&arrival.times[..], &arrival.probabilities[..]), (&[1.0, 5.0][..], &[0.25, 0.75][..]));
+        assert_eq!(arrival.mean, 4.0);
+        assert!((arrival.deviation - 3f64.sqrt()).abs() < 1e-14); // (9 + 3 * 1) / 4
+    }
 
     #[test]
     fn nodes_at_one_time_are_one_node() {

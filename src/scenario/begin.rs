@@ -8,7 +8,7 @@ use crate::likelihood::pseudo_observation::PseudoObservation;
 use crate::likelihood::stepwise::Stepwise;
 use crate::model::destination::Destinations;
 use crate::pointing::engine::PointingEngine;
-use crate::pointing::parameters::Parameters;
+use crate::pointing::parameters::PointingConstants;
 use crate::value::Node;
 use std::sync::Arc;
 
@@ -75,5 +75,5 @@ impl Scenario {
 enum Choice {
     PseudoObservation(Configuration),
     Stepwise(Configuration),
-    Pointing(Arc<Parameters>, Vec<f64>),
+    Pointing(Arc<PointingConstants>, Vec<f64>),
 }

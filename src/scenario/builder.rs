@@ -10,7 +10,7 @@ use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::{Motion, MotionModels};
 use crate::model::observation::Observation;
-use crate::pointing::parameters::Parameters;
+use crate::pointing::parameters::PointingConstants;
 use crate::value::{Path, quote};
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub struct ScenarioBuilder {
     pub(super) quadrature: Option<Quadrature>,
     /// None is the pointing model.
     pub(super) method: Option<Method>,
-    pub(super) pointing: Option<Parameters>,
+    pub(super) pointing: Option<PointingConstants>,
     pub(super) none: f64,
     pub(super) learning: Option<Learning>,
     pub(super) destinations: Vec<Destination>,
@@ -83,7 +83,7 @@ impl ScenarioBuilder {
     /// The pointing model in place of a method of the papers, for constant velocity and positions. It takes its filter's noise from
     /// `motion` and the deviation of the first velocity from `initial`, and neither arrival prior nor quadrature.
     #[must_use]
-    pub fn pointing(self, constants: Parameters) -> Self {
+    pub fn pointing(self, constants: PointingConstants) -> Self {
         Self { method: None, pointing: Some(constants), ..self }
     }
 
@@ -139,7 +139,7 @@ impl ScenarioBuilder {
     }
 
     /// The constants of the pointing model, beside which nothing of the papers' is given.
-    fn constants(&self) -> Result<Parameters> {
+    fn constants(&self) -> Result<PointingConstants> {
         let extra = [
             ("arrival", self.arrival.as_ref().map(Arrival::to_value)),
             ("quadrature", self.quadrature.as_ref().map(Quadrature::to_value)),

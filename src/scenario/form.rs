@@ -11,7 +11,7 @@ use crate::model::habits::Learning;
 use crate::model::initial::Initial;
 use crate::model::motion::Motion;
 use crate::model::observation::Observation;
-use crate::pointing::parameters::Parameters;
+use crate::pointing::parameters::PointingConstants;
 use crate::value::{Node, Value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -97,7 +97,8 @@ impl ScenarioBuilder {
             builder.quadrature = Some(if papers { Quadrature::read(&rule)? } else { Quadrature::default() });
         }
         if let Some(pointing) = fields.optional("pointing") {
-            builder.pointing = Some(if papers { Parameters::default() } else { Parameters::read(&pointing)? });
+            builder.pointing =
+                Some(if papers { PointingConstants::default() } else { PointingConstants::read(&pointing)? });
         }
         if let Some(none) = fields.optional("none") {
             builder.none = none.float()?;

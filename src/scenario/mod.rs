@@ -14,7 +14,7 @@ use crate::model::habits::Learning;
 use crate::model::initial::InitialDensity;
 use crate::model::motion::{Motion, MotionModels};
 use crate::model::observation::{Observation, ObservationModel};
-use crate::pointing::parameters::Parameters;
+use crate::pointing::parameters::PointingConstants;
 use crate::value::Path;
 pub use builder::ScenarioBuilder;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ pub enum Setup {
         quadrature: Quadrature,
     },
     /// The pointing model.
-    Pointing(Arc<Parameters>),
+    Pointing(Arc<PointingConstants>),
 }
 
 impl Scenario {

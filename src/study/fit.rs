@@ -3,13 +3,13 @@
 //! The constants are numbers of the scenario, named by their paths (`pointing.timeToGo.median`); each is searched as a factor
 //! of what it is. For the pointing model they minimise the mean log loss over the samples of the approaches; for the papers'
 //! methods they maximise the evidence `log p(y_2:k | y_1, D)` of the true destination (maximum likelihood). What was gained
-//! is told on tracks that were left out: of other users where there are at least two, else every second track.
+//! is measured on tracks that were left out: of other users where there are at least two, else every second track.
 
 use super::metrics::Score;
-use super::track::Track;
+use super::track::{Track, extra};
 use crate::error::{Code, Error, Result};
 use crate::predictor::Predictor;
-use crate::scenario::Setup;
+use crate::scenario::{Scenario, Setup};
 use crate::value::{Node, Value, quote};
 use cobyla::{RhoBeg, StopTols, minimize};
 use std::cell::Cell;
@@ -22,6 +22,12 @@ pub const TRACKS_PER_CONSTANT: usize = 10;
 const WIDEST: f64 = 20.0;
 
 /// What a search may cost and what it looks for.
+///
+/// ```
+/// use whither::study::fit::Options;
+/// let noise = Options { constants: vec!["motion.noise".to_owned()], ..Options::default() };
+/// assert_eq!(noise.evaluations, 60);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Paths of the constants; empty for the usual ones of the scenario's method.
@@ -36,7 +42,13 @@ impl Default for Options {
     }
 }
 
-/// How far a search has come.
+/// How far a search has come; [`fit`] calls back with it.
+///
+/// ```
+/// use whither::study::fit::Progress;
+/// let mut half = |progress: Progress| progress.share < 0.5; // stops a search half-way
+/// assert!(half(Progress { share: 0.1, loss: 2.0 }) && !half(Progress { share: 0.6, loss: 1.9 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// From 0 to 1.
@@ -45,11 +57,17 @@ pub struct Progress {
     pub loss: f64,
 }
 
-/// What was learnt.
+/// What was learnt by [`fit`], and what it is worth.
+///
+/// ```
+/// use whither::study::fit::Fitted;
+/// let constants = vec![("motion.noise".to_owned(), 9.0, 3.1)];
+/// let fitted = Fitted { constants, left_out: [2.1, 1.6], tracks: 60 };
+/// let gain = fitted.left_out[0] - fitted.left_out[1]; // nats for each sample
+/// assert!((gain - 0.5).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// The scenario with the new constants, from all tracks.
-    pub scenario: Value,
     /// Each constant: its path, what it was, what it is.
     pub constants: Vec<(String, f64, f64)>,
     /// Mean loss on the tracks left out, with the old constants and with ones learnt from the others.
@@ -58,18 +76,17 @@ pub struct Fitted {
     pub tracks: usize,
 }
 
-/// Learns constants of `template` (a scenario; its destinations are replaced by each track's targets, each with the keys of
-/// `extra`). `progress` is called after every pass over the tracks; false ends it all with the best so far, which is what half of the
-/// tracks say while the gain is still being found out.
+/// Learns constants of `template`, for each track with the destinations of [`Track::scenario`]: the template with the new constants,
+/// and what they are. `progress` is called after every pass over the tracks; false ends the search with the best so far, which is
+/// of half of the tracks while the gain is still being measured.
 ///
 /// # Errors
 /// `out-of-range` with fewer than [`TRACKS_PER_CONSTANT`] usable tracks for each constant, and where a path is no number
 /// above 0; those of the scenario.
 ///
 /// ```
-/// use whither::math::random::Random;
-/// use whither::pointer::{PointerOptions, PointerTarget, pointer_scenario};
-/// use whither::study::{fit::{Options, fit}, simulate::Hand, track::Target};
+/// use whither::study::{fit::{Options, fit}, simulate::{Hand, Random}, track::Target};
+/// use whither::{PointerOptions, PointerTarget, pointer_scenario};
 /// let targets: Vec<Target> = [[100.0, 100.0], [500.0, 80.0], [300.0, 500.0]]
 ///     .map(|center| Target { center: center.to_vec(), size: vec![60.0, 60.0] })
 ///     .to_vec();
@@ -77,22 +94,35 @@ pub struct Fitted {
 /// let tracks: Vec<_> =
 ///     (0..20).map(|k| Hand::default().reach(&mut random, [300.0, 250.0], &targets, k % 3)).collect();
 /// let any = PointerTarget { id: "any".to_owned(), x: 0.0, y: 0.0, width: 1.0, height: 1.0 };
-/// let template = pointer_scenario(&[any], PointerOptions::default()).unwrap().to_value();
+/// let template = pointer_scenario(&[any], PointerOptions::default()).unwrap();
 /// let options = Options { constants: vec!["pointing.power.to".to_owned()], evaluations: 8 };
-/// let fitted = fit(&tracks, &template, &whither::Value::Null, &options, &mut |_| true).unwrap();
+/// let (scenario, fitted) = fit(&tracks, &template, &options, &mut |_| true).unwrap();
 /// assert!(fitted.left_out[1] < fitted.left_out[0]);
+/// assert_eq!(serde_json::to_value(&scenario).unwrap()["pointing"]["power"]["to"], fitted.constants[0].2);
 /// ```
 pub fn fit(
+    tracks: &[Track],
+    template: &Scenario,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress) -> bool,
+) -> Result<(Scenario, Fitted)> {
+    let template = template.to_value();
+    let (scenario, fitted) = fit_value(tracks, &template, &extra(&template), options, progress)?;
+    Ok((Scenario::from_value(&scenario)?, fitted))
+}
+
+/// The same of data: the template may be without destinations, and each track's have the keys of `extra`.
+pub(crate) fn fit_value(
     tracks: &[Track],
     template: &Value,
     extra: &Value,
     options: &Options,
     progress: &mut dyn FnMut(Progress) -> bool,
-) -> Result<Fitted> {
+) -> Result<(Value, Fitted)> {
     let paths = if options.constants.is_empty() { usual(template)? } else { options.constants.clone() };
     let mut usable: Vec<&Track> = Vec::with_capacity(tracks.len());
     for (k, track) in tracks.iter().enumerate() {
-        track.scenario(template, extra).map_err(|error| of_track(k, &error))?;
+        track.scenario_of(template, extra).map_err(|error| of_track(k, &error))?;
         if track.approach().is_some() {
             usable.push(track);
         }
@@ -129,7 +159,8 @@ pub fn fit(
     let factors = if stopped { partly } else { search.run(&usable, [1.0 / 3.0, 1.0], progress)? };
     let constants =
         paths.iter().zip(&before).zip(&factors).map(|((path, was), factor)| (path.clone(), *was, was * factor));
-    Ok(Fitted { scenario: search.scenario(&factors)?, constants: constants.collect(), left_out, tracks: usable.len() })
+    let fitted = Fitted { constants: constants.collect(), left_out, tracks: usable.len() };
+    Ok((search.scenario(&factors)?, fitted))
 }
 
 /// An error of the scenario as the track numbered `k` makes it: what is wrong with its destinations is wrong with the track.
@@ -216,7 +247,7 @@ impl Search<'_> {
         let (mut loss, mut samples) = (0.0, 0.0);
         for track in tracks {
             let Some(approach) = track.approach() else { continue };
-            let scenario = track.scenario(&template, self.extra)?;
+            let scenario = track.scenario_of(&template, self.extra)?;
             if matches!(scenario.setup, Setup::Pointing(_)) {
                 let score = Score::of_scenario(track, approach, &scenario)?;
                 loss += score.loss;
@@ -311,7 +342,7 @@ mod tests {
         let tracks: Vec<Track> = (0..60).filter_map(|user| walk(&mut random, user % 4)).collect();
         let options = Options { constants: vec!["motion.noise".to_owned()], evaluations: 40 };
         let mut calls = 0;
-        let fitted = fit(&tracks, &template(9.0), &Value::Null, &options, &mut |progress| {
+        let (scenario, fitted) = fit_value(&tracks, &template(9.0), &Value::Null, &options, &mut |progress| {
             calls += 1;
             assert!(progress.share > 0.0 && progress.share <= 1.0);
             true
@@ -322,17 +353,17 @@ mod tests {
         assert!((*is - 3.0).abs() < 0.5, "{is}");
         assert!(fitted.left_out[1] < fitted.left_out[0], "{:?}", fitted.left_out);
         assert!(calls > 4);
-        assert_eq!(read(&fitted.scenario, "motion.noise").unwrap(), *is);
+        assert_eq!(read(&scenario, "motion.noise").unwrap(), *is);
     }
 
     #[test]
     fn too_few_tracks_are_told_how_many_are_needed() {
         let mut random = Random::new(5);
         let tracks: Vec<Track> = (0..20).filter_map(|user| walk(&mut random, user)).take(7).collect();
-        let error = fit(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        let error = fit_value(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
         let needed = "tracks: must have at least 20 tracks that enter their target, 10 for each of 2 constants";
         assert_eq!(error.to_string(), format!("{needed}, has 7"));
-        let error = fit(&[], &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        let error = fit_value(&[], &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
         assert_eq!(error.to_string(), format!("{needed}, has 0"));
     }
 
@@ -341,9 +372,9 @@ mod tests {
         let mut random = Random::new(5);
         let mut tracks: Vec<Track> = (0..30).filter_map(|user| walk(&mut random, user)).collect();
         tracks[4].targets[1].size = vec![40.0, -1.0];
-        let error = fit(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        let error = fit_value(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
         assert_eq!(error.path(), "tracks[4].targets[1].size[1]");
-        let error = fit(&tracks, &Value::Null, &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
+        let error = fit_value(&tracks, &Value::Null, &Value::Null, &Options::default(), &mut |_| true).unwrap_err();
         assert_eq!(error.to_string(), "a scenario must be an object");
     }
 
@@ -352,7 +383,7 @@ mod tests {
         let mut random = Random::new(5);
         let tracks: Vec<Track> = (0..60).filter_map(|user| walk(&mut random, user % 4)).collect();
         let options = Options { constants: vec!["motion.speed".to_owned()], ..Options::default() };
-        let error = fit(&tracks, &template(3.0), &Value::Null, &options, &mut |_| true).unwrap_err();
+        let error = fit_value(&tracks, &template(3.0), &Value::Null, &options, &mut |_| true).unwrap_err();
         assert_eq!(error.to_string(), "constants: \"motion.speed\" must be a number above 0 to be learnt, got nothing");
         let options = Options { constants: vec!["motion.noise".to_owned()], evaluations: 40 };
         let mut calls = 0;
@@ -360,7 +391,7 @@ mod tests {
             calls += 1;
             false
         };
-        fit(&tracks, &template(9.0), &Value::Null, &options, stop).unwrap();
+        fit_value(&tracks, &template(9.0), &Value::Null, &options, stop).unwrap();
         assert_eq!(calls, 1, "no second search after the first was stopped");
     }
 }

@@ -1,12 +1,12 @@
 //! Simulated movements: gestures of a hand towards a target, by a seed.
 
 use super::track::{Sample, Target, Track};
-use crate::math::random::Random;
+pub use crate::math::random::Random;
 
 /// How a simulated hand moves: minimum jerk with a bow, a tremor and Fitts's time.
 ///
 /// ```
-/// use whither::{math::random::Random, study::{simulate::Hand, track::Target}};
+/// use whither::study::{simulate::{Hand, Random}, track::Target};
 /// let target = Target { center: vec![280.0, 0.0], size: vec![40.0, 40.0] };
 /// let track = Hand::default().reach(&mut Random::new(1), [0.0, 0.0], &[target], 0);
 /// // 0.25 + 0.15 log2(280 / 40 + 1), give or take where in the target it aims

@@ -105,7 +105,7 @@ impl Track {
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`; `out-of-range` for a target that is not in
     /// the list, a size that is not above 0 and an empty list; `time-not-increasing` where the time runs back.
-    pub fn read(node: &Node<'_>) -> Result<Self> {
+    pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
         let fields = node.fields(&["id", "user", "targets", "target", "samples"])?;
         let text = |key: &'static str| fields.optional(key).map_or(Ok(String::new()), |node| name(&node));
         let samples = read_samples(&fields.required("samples")?)?;
@@ -148,12 +148,18 @@ impl Track {
         entry.filter(|&k| k > 0).map(|k| k + 1)
     }
 
-    /// The scenario for this track: `template` with destinations made from the targets, each with the keys of `extra` (an
-    /// object, or nothing). Their ids are their places.
+    /// The scenario for this track: `template` with the targets as its destinations, each with the arrival prior and the end
+    /// velocity of the template's first one. Their ids are their places.
     ///
     /// # Errors
     /// Those of the scenario.
-    pub fn scenario(&self, template: &Value, extra: &Value) -> Result<Scenario> {
+    pub fn scenario(&self, template: &Scenario) -> Result<Scenario> {
+        let template = template.to_value();
+        self.scenario_of(&template, &extra(&template))
+    }
+
+    /// The same of data: each destination has the keys of `extra`, an object or nothing.
+    pub(crate) fn scenario_of(&self, template: &Value, extra: &Value) -> Result<Scenario> {
         let Value::Map(entries) = template else {
             return Err(Error::new(Code::WrongType, "", "a scenario must be an object"));
         };
@@ -172,6 +178,19 @@ impl Track {
         entries.push(("destinations".to_owned(), Value::List(destinations.collect())));
         Scenario::from_value(&Value::Map(entries))
     }
+}
+
+/// What the first destination of a scenario has that a target does not change.
+pub(super) fn extra(template: &Value) -> Value {
+    let root = Node::root(template, "");
+    let destinations = root.get("destinations");
+    if let Some(Value::List(list)) = destinations.as_ref().map(|list| list.value())
+        && let Some(Value::Map(first)) = list.first()
+    {
+        let kept = first.iter().filter(|(key, _)| ["arrival", "endVelocity"].contains(&key.as_str()));
+        return Value::Map(kept.cloned().collect());
+    }
+    Value::Null
 }
 
 /// A text, or a number as one.

@@ -4,16 +4,6 @@ use super::{Node, Value, quote};
 use crate::error::{Code, Error, Result};
 
 /// An object whose keys have been checked.
-///
-/// ```
-/// use whither::{Value, value::Node};
-/// let value: Value = serde_json::from_str(r#"{ "noise": 3, "matrix": null }"#).unwrap();
-/// let root = Node::root(&value, "observation");
-/// let fields = root.fields(&["noise", "matrix"]).unwrap();
-/// assert_eq!(fields.required("noise").unwrap().number(), Ok(3.0));
-/// assert!(fields.optional("matrix").is_none()); // null counts as absent
-/// assert_eq!(root.fields(&["noise"]).unwrap_err().path(), "observation.matrix");
-/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
     pub(super) entries: &'a [(String, Value)],
@@ -61,18 +51,20 @@ impl<'a> Fields<'a> {
     pub fn positive(&self, key: &'a str) -> Result<f64> {
         self.required(key)?.positive()
     }
+}
 
-    /// [`Node::not_negative`] at `key`.
-    ///
-    /// # Errors
-    /// `missing-key`, and those of [`Node::not_negative`].
-    pub fn not_negative(&self, key: &'a str) -> Result<f64> {
-        self.required(key)?.not_negative()
-    }
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
 
-    /// The object itself.
-    #[must_use]
-    pub const fn node(&self) -> &'a Node<'a> {
-        self.node
+    #[test]
+    fn null_counts_as_absent_but_its_key_must_be_known() {
+        let value: Value = serde_json::from_str(r#"{ "noise": 3, "matrix": null }"#).unwrap();
+        let root = Node::root(&value, "observation");
+        let fields = root.fields(&["noise", "matrix"]).unwrap();
+        assert_eq!(fields.required("noise").unwrap().number(), Ok(3.0));
+        assert!(fields.optional("matrix").is_none());
+        assert_eq!(root.fields(&["noise"]).unwrap_err().path(), "observation.matrix");
     }
 }

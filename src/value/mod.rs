@@ -20,13 +20,6 @@ pub use quote::{number, quote};
 pub const LARGEST: f64 = 1e50;
 
 /// What JSON can say, with NaN and infinities left in, so that they can be refused by name.
-///
-/// ```
-/// use whither::Value;
-/// let value: Value = serde_json::from_str(r#"{ "id": "map", "center": [1.5, 2] }"#).unwrap();
-/// assert_eq!(value, Value::map([("id", Value::text("map")), ("center", Value::numbers(&[1.5, 2.0]))]));
-/// assert_eq!(Value::Number(f64::NAN).quoted(), "NaN");
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `null` or `undefined`.
@@ -276,14 +269,6 @@ impl<'a> Node<'a> {
         self.path.positive(self.float()?)
     }
 
-    /// A number that passes [`Path::not_negative`].
-    ///
-    /// # Errors
-    /// `wrong-type`, and those of [`Path::not_negative`].
-    pub fn not_negative(&self) -> Result<f64> {
-        self.path.not_negative(self.float()?)
-    }
-
     /// An integer that passes [`Path::whole`].
     ///
     /// # Errors
@@ -384,39 +369,5 @@ impl<'a> Node<'a> {
             numbers.push(check(&item)?);
         }
         Ok(numbers)
-    }
-
-    /// One number for all axes, or one for each, each passed through `check`.
-    ///
-    /// # Errors
-    /// `wrong-type`, `wrong-length`, and what `check` says.
-    pub fn for_each_axis(&self, axes: usize, check: fn(&Node<'_>) -> Result<f64>) -> Result<Vec<f64>> {
-        if matches!(self.value, Value::List(_)) {
-            self.vector(Some(axes))?;
-            self.numbers(check)
-        } else {
-            if !matches!(self.value, Value::Number(_)) {
-                let must = format!("must be a number or a list of {axes} numbers, one for each axis");
-                return Err(self.error(Code::WrongType, &must));
-            }
-            check(self).map(|x| vec![x; axes])
-        }
-    }
-
-    /// A matrix given as a list of rows, returned row by row, of the given shape where one is given.
-    ///
-    /// # Errors
-    /// `wrong-type`, `wrong-length`, `not-finite`.
-    pub fn matrix(&self, rows: usize, columns: usize) -> Result<Vec<f64>> {
-        let items = self.items()?;
-        if items.len() != rows {
-            let must = format!("must have {rows} rows of {columns} numbers, has {} rows", items.len());
-            return Err(self.error(Code::WrongLength, &must));
-        }
-        let mut matrix = Vec::with_capacity(rows * columns);
-        for row in items {
-            matrix.extend(row.vector(Some(columns))?);
-        }
-        Ok(matrix)
     }
 }

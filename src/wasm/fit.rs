@@ -42,7 +42,7 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
         Some(node) => return Err(node.error(Code::WrongType, "must be an object").into()),
     };
     let report = &mut |progress: Progress| listener.report(progress.share, progress.loss);
-    let fitted = fit::fit(&tracks, scenario.value(), &extra, &options, report)?;
+    let (scenario, fitted) = fit::fit_value(&tracks, scenario.value(), &extra, &options, report)?;
     let constants = fitted.constants.iter().map(|(path, before, after)| {
         Value::map([("path", Value::text(path)), ("before", Value::Number(*before)), ("after", Value::Number(*after))])
     });
@@ -51,6 +51,6 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
         ("constants", Value::List(constants.collect())),
         ("leftOut", Value::map([("before", before), ("after", after)])),
         ("tracks", Value::Number(fitted.tracks as f64)),
-        ("scenario", fitted.scenario),
+        ("scenario", scenario),
     ]))?)
 }

@@ -11,7 +11,7 @@
 use crate::pointing::Pointing;
 use crate::pointing::defaults::{OBSERVATION_NOISE, REMAINING};
 use crate::pointing::entry_time::EntryTime;
-use crate::pointing::parameters::Parameters;
+use crate::pointing::parameters::PointingConstants;
 use crate::pointing::space::Plane;
 use crate::pointing::targets::{Extent, Target, Targets};
 use crate::posterior::shares;
@@ -26,7 +26,7 @@ static ALLOCATOR: rlsf::SmallGlobalTlsf = rlsf::SmallGlobalTlsf::new();
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct PointerEngine {
-    parameters: Arc<Parameters>,
+    parameters: Arc<PointingConstants>,
     /// Of an observation, in each axis.
     variances: [f64; 2],
     /// The prior probability of none of the targets.
@@ -171,7 +171,7 @@ pub fn constants() -> Vec<f64> {
 struct Constants {
     /// The prior probability of none of the targets.
     none: f64,
-    parameters: Parameters,
+    parameters: PointingConstants,
     entry: EntryTime,
     points: f64,
     /// Of an observation, in each axis.
@@ -180,7 +180,7 @@ struct Constants {
 
 impl Default for Constants {
     fn default() -> Self {
-        let parameters = Parameters::default();
+        let parameters = PointingConstants::default();
         let points = parameters.time_to_go.points as f64;
         Self { none: 0.0, parameters, entry: REMAINING, points, deviations: [OBSERVATION_NOISE; 2] }
     }

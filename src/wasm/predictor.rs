@@ -3,6 +3,7 @@
 use super::{Result, data, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
+use crate::snapshot::Snapshot;
 use crate::value::Node;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -35,7 +36,7 @@ impl Engine {
 
     /// From a snapshot.
     pub fn restore(value: JsValue) -> Result<Engine> {
-        Ok(Self { predictor: Predictor::restore(&data::read(&value)?)? })
+        Ok(Self { predictor: Predictor::restore(&Snapshot(data::read(&value)?))? })
     }
 
     /// A second engine in the same state.
@@ -45,7 +46,7 @@ impl Engine {
 
     /// A snapshot.
     pub fn snapshot(&self) -> Result<JsValue> {
-        Ok(data::write(&self.predictor.snapshot())?)
+        Ok(data::write(&self.predictor.snapshot().0)?)
     }
 
     /// An observation of the first `count` of three numbers.

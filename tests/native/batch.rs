@@ -67,7 +67,7 @@ impl<'a> Batch<'a> {
         let d = self.parts().motion.dimensions();
         let distance = destination.mean.iter().take(d).zip(&start).map(|(a, y)| (a - y) * (a - y)).sum::<f64>().sqrt();
         let class = self.parts().destinations.class(i);
-        let grid = class.arrival().unwrap_or(arrival).grid(quadrature, distance, class.extent(d));
+        let grid = whither::internals::grid(class.arrival().unwrap_or(arrival), quadrature, distance, class.extent(d));
         let last = self.problem.observations[self.problem.observations.len() - 1].time - first.time;
         let conditioned = usize::from(self.problem.scenario["initial"]["evidence"] != Json::Bool(true));
         let mut nodes = Vec::new();

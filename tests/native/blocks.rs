@@ -3,7 +3,7 @@
 use crate::support::{predictor, relative, value};
 use serde_json::{Value as Json, json};
 use whither::Predictor;
-use whither::internals::Random;
+use whither::study::simulate::Random;
 use whither::{PointerOptions, PointerTarget, pointer_scenario};
 
 /// One target; every third one has a speed on arrival, where wanted.

@@ -93,7 +93,7 @@ fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
     let given = value(from);
     Ok(match base {
         "scenario" | "pointing" => Box::new(Predictor::new(&whither::internals::scenario(&given)?)),
-        "snapshot" => Box::new(Predictor::restore(&given)?),
+        "snapshot" => Box::new(Predictor::restore(&whither::internals::snapshot(given))?),
         "sequence" => Box::new(whither::internals::sequence(&given)?),
         "parameters" => Box::new(whither::internals::given_sequence(&given)?),
         "pointer" => {

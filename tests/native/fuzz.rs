@@ -209,9 +209,10 @@ impl Draw {
                 *predictor = restored;
             }
             21 => {
-                let mut snapshot = predictor.snapshot();
-                self.corrupt(&mut snapshot);
-                drop(Predictor::restore(&snapshot));
+                let text = serde_json::to_string(&predictor.snapshot()).unwrap();
+                let mut damaged = serde_json::from_str(&text).unwrap();
+                self.corrupt(&mut damaged);
+                drop(Predictor::restore(&whither::internals::snapshot(damaged)));
             }
             22 => drop(predictor.log_likelihoods().to_vec()),
             _ => drop((predictor.remaining(), predictor.best())),

@@ -2,7 +2,7 @@
 
 use crate::support::{predictor, value};
 use serde_json::json;
-use whither::internals::Random;
+use whither::study::simulate::Random;
 use whither::study::{metrics::Score, simulate::Hand, track::Target};
 use whither::{Code, Predictor};
 use whither::{PointerOptions, PointerTarget, pointer_scenario};

@@ -2,8 +2,7 @@
 
 use crate::support::{change, golden, predictor, relative, scenario_of, value};
 use serde_json::{Value as Json, json};
-use whither::internals::Value;
-use whither::{Code, Predictor};
+use whither::{Code, Predictor, Snapshot};
 
 const METHODS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
@@ -321,8 +320,8 @@ fn a_damaged_snapshot_is_refused() {
         let text = serde_json::to_string(&snapshot).unwrap().into_bytes();
         let mut refused = 0;
         let mut damaged = |text: &[u8], what: &str| {
-            let Ok(value) = serde_json::from_slice::<Value>(text) else { return };
-            match Predictor::restore(&value) {
+            let Ok(damaged) = serde_json::from_slice::<Snapshot>(text) else { return };
+            match Predictor::restore(&damaged) {
                 Err(error) => {
                     assert_eq!(error.code(), Code::BadSnapshot, "{method} {what}: {error}");
                     refused += 1;

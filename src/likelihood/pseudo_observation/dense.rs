@@ -1,4 +1,4 @@
-//! `pseudoObservation`: the product of Liang's prediction errors (11), telescoped.
+//! `pseudoObservation`: the product of the prediction errors of Liang (11), telescoped.
 //!
 //! ```text
 //! log p(y_2:k | y_1, D_i, T) = log p(y_2:k | y_1)

@@ -1,4 +1,5 @@
-//! The telescoped form of Liang's prediction errors for all destinations at once: the filters, and the sums over nodes.
+//! The telescoped form of Liang (11)'s product for all destinations at once: the filters, and the sums over nodes. [`super::dense`]
+//! computes the same one pair at a time.
 
 use super::candidate::{Candidate, Source, Tables};
 use super::classes::{Class, Classes, IN_RANGE};

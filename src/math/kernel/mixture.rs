@@ -1,4 +1,4 @@
-//! The hot loop: at many places at once, sums of exponentials of quadratics.
+//! The hot loop, Liang (11) telescoped and summed by (6): at many places at once, sums of exponentials of quadratics.
 //!
 //! ```text
 //! w_i = prior_i sum_n f_n 2^(quadratic_n(a_i) - shift)

@@ -6,9 +6,9 @@ use whither::Gaussian;
 use whither::internals::Bridge;
 use whither::internals::Endpoint;
 use whither::internals::MotionModel;
-use whither::internals::Random;
 use whither::internals::condition;
 use whither::internals::{Parts, parts};
+use whither::study::simulate::Random;
 use whither::{Predictor, Scenario};
 
 /// A scenario with a prior of everything: four destinations, constant velocity in the plane.
@@ -72,7 +72,7 @@ pub fn track(scenario: &Scenario, family: Family, count: usize, random: &mut Ran
     let Parts { motion, observation, destinations, arrival } = parts(scenario);
     let (arrival, quadrature) = arrival.expect("a method of the papers");
     let destination = categorical(random, destinations.priors().iter().copied());
-    let grid = arrival.grid(quadrature, 0.0, 1.0);
+    let grid = whither::internals::grid(arrival, quadrature, 0.0, 1.0);
     let arrives = grid.times[categorical(random, grid.log_weights.iter().map(|log| log.exp()))];
     let motion = motion.candidates[0].model.as_ref();
     let noise = observation.noise();

@@ -6,7 +6,7 @@ use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use whither::Predictor;
-use whither::internals::Value;
+use whither::internals::{Value, track_scenario};
 use whither::study::metrics::{BINS, Bin, calibration_error};
 use whither::study::track::Track;
 
@@ -44,7 +44,7 @@ pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -
     let mut results = Extras::default();
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
-    let scenario = track.scenario(&template.scenario, &template.extra).map_err(message)?;
+    let scenario = track_scenario(track, &template.scenario, &template.extra).map_err(message)?;
     let mut predictor = Predictor::new(&scenario);
     for sample in &samples[..approach - 1] {
         sample.observe(&mut predictor).map_err(message)?;
@@ -66,7 +66,7 @@ pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -
             entries.retain(|(key, _)| key != "none");
             entries.push(("none".to_owned(), Value::Number(prior)));
         }
-        let scenario = shown.scenario(&with_none, &template.extra).map_err(message)?;
+        let scenario = track_scenario(&shown, &with_none, &template.extra).map_err(message)?;
         let mut predictor = Predictor::new(&scenario);
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {

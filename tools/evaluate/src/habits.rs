@@ -4,10 +4,9 @@ use crate::methods::Template;
 use presentation::table;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
-use whither::internals::Random;
-use whither::internals::Value;
+use whither::internals::{Value, track_scenario};
 use whither::study::metrics::Score;
-use whither::study::simulate::Hand;
+use whither::study::simulate::{Hand, Random};
 use whither::study::track::{Target, Track};
 use whither::{Predictor, Scenario};
 
@@ -101,7 +100,7 @@ fn learner(template: &Template, track: &Track, learning: &[(&str, f64)]) -> Resu
         let keys = learning.iter().map(|(key, number)| ((*key).to_owned(), Value::Number(*number)));
         entries.push(("learning".to_owned(), Value::Map(keys.collect())));
     }
-    track.scenario(&scenario, &template.extra).map_err(|error| error.to_string())
+    track_scenario(track, &scenario, &template.extra).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use whither::internals::Node;
-use whither::study::fit::{Options, TRACKS_PER_CONSTANT, fit};
+use whither::internals::{Node, fit, track_scenario};
+use whither::study::fit::{Options, Progress, TRACKS_PER_CONSTANT};
 use whither::study::metrics::{Score, bootstrap};
 use whither::study::track::Track;
 
@@ -90,20 +90,21 @@ fn learn(template: &Template, set: &str, constants: &[String], tasks: &[Task<'_>
     let gains = tasks.par_iter().map(|task| {
         let tracks: Vec<Track> = task.learnt_from.iter().map(|track| (*track).clone()).collect();
         let mut done = 0;
-        let mut progress = |state: whither::study::fit::Progress| {
+        let mut progress = |state: Progress| {
             let now = (1000.0 * state.share) as u64;
             bar.inc(now.saturating_sub(done));
             done = done.max(now);
             true
         };
-        let fitted = fit(&tracks, &template.scenario, &template.extra, &options, &mut progress).map_err(message)?;
+        let learnt = fit(&tracks, &template.scenario, &template.extra, &options, &mut progress);
+        let (fitted, _) = learnt.map_err(message)?;
         bar.inc(1000u64.saturating_sub(done));
         let mut gain = Gain::new();
         for track in &task.scored_on {
             let Some(approach) = track.approach() else { continue };
             let sums = gain.entry(track.user.clone()).or_default();
-            for (sum, scenario) in sums.iter_mut().zip([&template.scenario, &fitted.scenario]) {
-                let scenario = track.scenario(scenario, &template.extra).map_err(message)?;
+            for (sum, scenario) in sums.iter_mut().zip([&template.scenario, &fitted]) {
+                let scenario = track_scenario(track, scenario, &template.extra).map_err(message)?;
                 sum.add(&Score::of_scenario(track, approach, &scenario).map_err(message)?);
             }
         }

@@ -3,7 +3,7 @@
 use crate::foresight::Foresight;
 use crate::peers::Peer;
 use std::path::Path;
-use whither::internals::Value;
+use whither::internals::{Value, track_scenario};
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
 use whither::{PointerOptions, PointerTarget, pointer_scenario};
@@ -108,7 +108,7 @@ impl Method {
     pub fn score(&self, track: &Track, approach: usize) -> Result<Option<Score>, String> {
         let tops = match &self.rule {
             Rule::Ours { scenario, extra } => {
-                let scenario = track.scenario(scenario, extra).map_err(|error| error.to_string())?;
+                let scenario = track_scenario(track, scenario, extra).map_err(|error| error.to_string())?;
                 return Score::of_scenario(track, approach, &scenario).map(Some).map_err(|error| error.to_string());
             }
             Rule::Peer(peer) if peer.applies(track) => peer.tops(track, approach),

@@ -7,7 +7,7 @@ use presentation::table;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::Path;
-use whither::internals::Value;
+use whither::internals::{Value, track_scenario};
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
 
@@ -62,7 +62,7 @@ fn score(template: &Value, line: &Line) -> Result<Option<Scored>, String> {
 impl Row {
     fn of(template: &Value, track: &Track, approach: usize) -> Result<Self, String> {
         let message = |error: whither::Error| error.to_string();
-        let scenario = track.scenario(template, &Value::Null).map_err(message)?;
+        let scenario = track_scenario(track, template, &Value::Null).map_err(message)?;
         let of_peer = |peer: Peer| {
             let tops = peer.tops(track, approach).into_iter();
             Score::of(track, &tops.map(|top| Prediction { top, chances: None }).collect::<Vec<_>>())

@@ -1,7 +1,7 @@
 //! The same movements under other circumstances: few and many targets, small and wide ones, other sample rates and pixels.
 //! Whatever is drawn is drawn by a seed.
 
-use whither::internals::Random;
+use whither::study::simulate::Random;
 use whither::study::track::{Sample, Target, Track};
 
 /// What is changed.

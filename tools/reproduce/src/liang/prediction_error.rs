@@ -5,7 +5,7 @@ use crate::movement::Movement;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix};
 use whither::Gaussian;
 use whither::internals::Bridge;
-use whither::internals::{Parts, condition, parts, propagate};
+use whither::internals::{Parts, condition, grid, parts, propagate};
 use whither::{Predictor, Scenario};
 
 /// The mean distances after each observation but the first, averaged over destinations and arrival times: original and
@@ -15,7 +15,7 @@ pub fn distances(scenario: &Scenario, movement: &Movement) -> Vec<[f64; 3]> {
     let Some((arrival, quadrature)) = arrival else { return Vec::new() };
     let motion = motion.candidates[0].model.as_ref();
     let (s, count) = (motion.states(), destinations.len());
-    let arrival = arrival.grid(quadrature, 0.0, 0.0);
+    let arrival = grid(arrival, quadrature, 0.0, 0.0);
     let first = first_posterior(scenario, movement);
     let noise = observation.noise().clone();
     let observation = DMatrix::from_fn(noise.nrows(), s, |i, j| f64::from(u8::from(i == j)));
