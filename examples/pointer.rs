@@ -1,7 +1,6 @@
 //! Which of four icons is the pointer going to? `cargo run --example pointer`
 
-use whither::Predictor;
-use whither::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::{PointerOptions, PointerTarget, Predictor, pointer_scenario};
 
 fn main() -> whither::Result<()> {
     // the centre of each icon, in pixels

@@ -1,22 +1,16 @@
 //! Which harbour is a vessel going to, and when will it be there? `cargo run --example vessel`
 
-use whither::{Predictor, Scenario};
+use whither::{Arrival, Destination, Initial, Motion, Observation, Predictor, Scenario};
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> whither::Result<()> {
     // metres and seconds; with positions in degrees, project them first
-    let scenario: Scenario = serde_json::from_str(
-        r#"{
-            "motion": { "type": "constantVelocity", "dimensions": 2, "noise": 0.3 },
-            "observation": { "noise": 5 },
-            "initial": { "velocity": 8 },
-            "arrival": { "type": "uniform", "from": 1200, "to": 3600 },
-            "none": 0.05,
-            "destinations": [
-                { "id": "Cowes", "center": [9000, 0], "size": 400 },
-                { "id": "Portsmouth", "center": [14000, 8000], "size": 400 }
-            ]
-        }"#,
-    )?;
+    let scenario = Scenario::builder(Motion::constant_velocity(2, 0.3), Observation::deviation(5.0))
+        .initial(Initial::velocity(8.0))
+        .arrival(Arrival::uniform(1200.0, 3600.0))
+        .none(0.05)
+        .destination(Destination::new("Cowes", [9000.0, 0.0]).size(400.0))
+        .destination(Destination::new("Portsmouth", [14000.0, 8000.0]).size(400.0))
+        .build()?;
     let mut vessel = Predictor::new(&scenario);
     for minute in 0..10 {
         let time = 60.0 * f64::from(minute);
