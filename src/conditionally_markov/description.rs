@@ -150,7 +150,7 @@ impl SequenceParameters {
         let keys = ["motion", "timeStep", "steps", "pins", "pinnedMean", "pinnedCovariance", "observation"];
         let fields = node.fields(&keys)?;
         let motion = Motion::read(&fields.required("motion")?)?;
-        let steps = fields.required("steps")?.whole(1, super::MAX_STEPS)?;
+        let steps = fields.required("steps")?.integer(1, super::MAX_STEPS)?;
         Ok(Self {
             time_step: TimeStep::read(&fields.required("timeStep")?)?,
             steps,
@@ -196,7 +196,7 @@ impl GivenSequence {
         let matrices = |key| fields.required(key)?.items()?.map(|item| Matrix::read(&item)).collect::<Result<Vec<_>>>();
         let boundary = Boundary::read(&fields.required("boundary")?)?;
         let states = boundary.destination_covariance.rows();
-        let dimensions = fields.optional("dimensions").map(|dimensions| dimensions.whole(1, states)).transpose()?;
+        let dimensions = fields.optional("dimensions").map(|dimensions| dimensions.integer(1, states)).transpose()?;
         let offset = match fields.optional("offset") {
             Some(offset) => Some(offset.items()?.map(|item| item.floats()).collect::<Result<Vec<_>>>()?),
             None => None,

@@ -132,7 +132,7 @@ impl Model {
         let SequenceParameters { motion, time_step, steps, pins, pinned_mean, pinned_covariance, observation } =
             parameters;
         let motion = one_model(motion, &root.key("motion"))?;
-        let steps = root.key("steps").whole(*steps as f64, 1, MAX_STEPS)?;
+        let steps = root.key("steps").integer(*steps as f64, 1, MAX_STEPS)?;
         let times = Times::new(time_step, &root.key("timeStep"), steps)?;
         let pins = match pins {
             Some(pins) => check_pins(pins, &root.key("pins"), steps)?,
@@ -172,7 +172,7 @@ impl Model {
             })?,
         };
         let dimensions = match sequence.dimensions {
-            Some(dimensions) => root.key("dimensions").whole(dimensions as f64, 1, s)?,
+            Some(dimensions) => root.key("dimensions").integer(dimensions as f64, 1, s)?,
             None if s.is_multiple_of(2) => s / 2,
             None => s,
         };

@@ -104,10 +104,11 @@ impl Quadrature {
             _ => &["rule", "points"],
         };
         let fields = node.fields(keys)?;
-        let points = fields.optional("points").map_or(Ok(DEFAULT_POINTS), |points| points.whole(least, MAX_POINTS))?;
+        let points =
+            fields.optional("points").map_or(Ok(DEFAULT_POINTS), |points| points.integer(least, MAX_POINTS))?;
         Ok(match (with(points), fields.optional("seed")) {
             (Self::MonteCarlo { points, .. }, Some(seed)) => {
-                Self::MonteCarlo { points, seed: seed.whole(0, u32::MAX as usize)? as u32 }
+                Self::MonteCarlo { points, seed: seed.integer(0, u32::MAX as usize)? as u32 }
             }
             (rule, _) => rule,
         })
@@ -120,7 +121,7 @@ impl Quadrature {
     pub(crate) fn check(&self, at: &Path<'_>) -> Result<()> {
         let (_, (least, _)) = RULES[self.place()];
         let (place, points) = (at.key("points"), self.points() as f64);
-        place.whole(points, least, MAX_POINTS)?;
+        place.integer(points, least, MAX_POINTS)?;
         if matches!(self, Self::Simpson { points } if points.is_multiple_of(2)) {
             let must = "must be odd: Simpson's rule takes pairs of intervals";
             return Err(place.error(Code::OutOfRange, must, points));

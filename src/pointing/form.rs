@@ -164,7 +164,7 @@ impl TimeToGo {
         Ok(Self {
             from: fields.float("from")?,
             to: fields.float("to")?,
-            points: fields.required("points")?.whole(2, MOST_NODES)?,
+            points: fields.required("points")?.integer(2, MOST_NODES)?,
             median: fields.float("median")?,
             spread: fields.float("spread")?,
             speed_exponent: fields.float("speedExponent")?,
@@ -175,7 +175,7 @@ impl TimeToGo {
         [
             ("from", self.from, POSITIVE),
             ("to", self.to, POSITIVE),
-            ("points", self.points as f64, |at, points| at.whole(points, 2, MOST_NODES).map(|_| points)),
+            ("points", self.points as f64, |at, points| at.integer(points, 2, MOST_NODES).map(|_| points)),
             ("median", self.median, POSITIVE),
             ("spread", self.spread, POSITIVE),
             ("speedExponent", self.speed_exponent, FINITE),

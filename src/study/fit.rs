@@ -149,11 +149,11 @@ pub(crate) fn fit_value(
     };
     let (train, test) = (side(0), side(1));
     let mut stopped = false;
-    let mut told = |state: Progress| {
+    let mut report = |state: Progress| {
         stopped |= !progress(state);
         !stopped
     };
-    let partly = search.run(&train, [0.0, 1.0 / 3.0], &mut told)?;
+    let partly = search.run(&train, [0.0, 1.0 / 3.0], &mut report)?;
     let ones = vec![1.0; paths.len()];
     let left_out = [search.loss(&test, &ones)?, search.loss(&test, &partly)?];
     let factors = if stopped { partly } else { search.run(&usable, [1.0 / 3.0, 1.0], progress)? };
@@ -265,11 +265,11 @@ impl Search<'_> {
         Ok(loss / samples.max(1.0))
     }
 
-    /// The factors that lose the least; the share of the whole work that this search is, is `of`.
+    /// The factors that lose the least; `of` is where in the complete work this search begins and ends.
     fn run(&self, tracks: &[&Track], of: [f64; 2], progress: &mut dyn FnMut(Progress) -> bool) -> Result<Vec<f64>> {
         let best = Cell::new((f64::INFINITY, 0usize, false));
         let factors = std::cell::RefCell::new(vec![1.0; self.paths.len()]);
-        let told = std::cell::RefCell::new(progress);
+        let progress = std::cell::RefCell::new(progress);
         let failed = std::cell::RefCell::new(None);
         let objective = |logs: &[f64], _: &mut ()| -> f64 {
             let (lowest, count, stopped) = best.get();
@@ -288,7 +288,7 @@ impl Search<'_> {
             let lowest = if lower { loss } else { lowest };
             let done = (count + 1) as f64 / self.evaluations as f64;
             let share = of[0] + (of[1] - of[0]) * done.min(1.0);
-            let go_on = (told.borrow_mut())(Progress { share, loss: lowest });
+            let go_on = (progress.borrow_mut())(Progress { share, loss: lowest });
             best.set((lowest, count + 1, !go_on));
             if loss.is_finite() { loss } else { 1e9 }
         };
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn too_few_tracks_are_told_how_many_are_needed() {
+    fn too_few_tracks_are_refused_with_the_number_needed() {
         let mut random = Random::new(5);
         let tracks: Vec<Track> = (0..20).filter_map(|user| walk(&mut random, user)).take(7).collect();
         let error = fit_value(&tracks, &template(3.0), &Value::Null, &Options::default(), &mut |_| true).unwrap_err();

@@ -6,7 +6,7 @@ use crate::math::random::Random;
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 
-/// Shares of the approach's time at which accuracy is told.
+/// Shares of the approach's time at which accuracy is reported.
 pub const MOMENTS: [f64; 4] = [0.25, 0.5, 0.75, 0.9];
 
 /// Bins of the top probability, for calibration.
@@ -159,7 +159,7 @@ impl Score {
         Self::of_predictor(track, approach, &mut Predictor::new(scenario))
     }
 
-    /// The same for a predictor that stands at the beginning of a movement, among the track's targets: one that has learnt from
+    /// The same for a predictor that is at the beginning of a movement, among the track's targets: one that has learnt from
     /// what was chosen before.
     ///
     /// # Errors
@@ -254,14 +254,19 @@ mod tests {
         serde_json::from_str(&text).unwrap()
     }
 
-    fn said(top: usize, chances: [f64; 2]) -> Prediction {
+    fn predicted(top: usize, chances: [f64; 2]) -> Prediction {
         Prediction { top: Some(top), chances: Some(chances) }
     }
 
     #[test]
     fn a_track_scored_by_hand() {
         // times 0, 1, 2, 4: weights .5, 1, 1.5, 1 (sum 4); right at 1 and from 4 on
-        let predictions = [said(0, [0.6, 0.4]), said(1, [0.7, 0.7]), said(0, [0.95, 0.00001]), said(1, [0.96, 0.96])];
+        let predictions = [
+            predicted(0, [0.6, 0.4]),
+            predicted(1, [0.7, 0.7]),
+            predicted(0, [0.95, 0.00001]),
+            predicted(1, [0.96, 0.96]),
+        ];
         let score = Score::of(&track(&[0.0, 1.0, 2.0, 4.0]), &predictions);
         assert!((score.time - 2.0 / 4.0).abs() < 1e-12);
         // 25% is t = 1 (right), 50% t = 2 (wrong), 75% t = 3, so the sample at 2; 90% the same
@@ -289,8 +294,8 @@ mod tests {
 
     #[test]
     fn scores_add_up_to_means_over_tracks_and_samples() {
-        let right = said(1, [0.5, 0.5]);
-        let wrong = said(0, [0.9, 0.1]);
+        let right = predicted(1, [0.5, 0.5]);
+        let wrong = predicted(0, [0.9, 0.1]);
         let mut sum = Score::of(&track(&[0.0, 1.0, 2.0]), &[right; 3]);
         sum.add(&Score::of(&track(&[0.0, 1.0]), &[wrong; 2]));
         let figures = sum.figures();

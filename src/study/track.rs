@@ -79,20 +79,20 @@ impl Sample {
     ///     "arrival": { "type": "uniform", "from": 1, "to": 5 },
     ///     "destinations": [{ "id": "a", "center": [0, 0], "size": 1 }, { "id": "b", "center": [9, 0], "size": 1 }]
     /// }"#).unwrap();
-    /// let [mut told, mut untold] = [(); 2].map(|()| Predictor::new(&scenario));
-    /// for predictor in [&mut told, &mut untold] {
+    /// let [mut sampled, mut observing] = [(); 2].map(|()| Predictor::new(&scenario));
+    /// for predictor in [&mut sampled, &mut observing] {
     ///     Sample { time: 0.0, position: vec![4.0, 0.0], missing: vec![] }.observe(predictor).unwrap();
     /// }
-    /// Sample { time: 1.0, position: vec![4.0, 7.0], missing: vec![1] }.observe(&mut told).unwrap();
-    /// untold.observe_with(1.0, &[Some(4.0), None], None).unwrap();
-    /// assert_eq!(told.probabilities(), untold.probabilities());
+    /// Sample { time: 1.0, position: vec![4.0, 7.0], missing: vec![1] }.observe(&mut sampled).unwrap();
+    /// observing.observe_with(1.0, &[Some(4.0), None], None).unwrap();
+    /// assert_eq!(sampled.probabilities(), observing.probabilities());
     /// ```
     pub fn observe(&self, predictor: &mut Predictor) -> Result<()> {
         if self.missing.is_empty() {
             return predictor.observe(self.time, &self.position);
         }
-        let seen = |(axis, x): (usize, &f64)| (!self.missing.contains(&axis)).then_some(*x);
-        let position: Vec<Option<f64>> = self.position.iter().enumerate().map(seen).collect();
+        let observed = |(axis, x): (usize, &f64)| (!self.missing.contains(&axis)).then_some(*x);
+        let position: Vec<Option<f64>> = self.position.iter().enumerate().map(observed).collect();
         predictor.observe_with(self.time, &position, None)
     }
 }
@@ -213,8 +213,8 @@ fn read_samples(list: &Node<'_>) -> Result<Vec<Sample>> {
         return Err(list.error(Code::OutOfRange, "must have at least one sample"));
     };
     for axis in 0..first.position.len() {
-        let seen = samples.iter().find(|sample| !sample.missing.contains(&axis));
-        let Some(mut last) = seen.map(|sample| sample.position[axis]) else {
+        let observed = samples.iter().find(|sample| !sample.missing.contains(&axis));
+        let Some(mut last) = observed.map(|sample| sample.position[axis]) else {
             return Err(list.error(Code::OutOfRange, &format!("must have a number at least once for axis {axis}")));
         };
         for sample in &mut samples {

@@ -19,7 +19,7 @@ pub use quote::{number, quote};
 /// the smallest deviation: what is computed from such numbers stays finite.
 pub const LARGEST: f64 = 1e50;
 
-/// What JSON can say, with NaN and infinities left in, so that they can be refused by name.
+/// What JSON can hold, with NaN and infinities left in, so that they can be refused by name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `null` or `undefined`.
@@ -54,7 +54,7 @@ impl Value {
         Self::List(numbers.into_iter().map(|&x| Self::Number(x)).collect())
     }
 
-    /// A number that any format must give back to the bit: what JSON cannot say (NaN, infinities, minus zero) becomes text.
+    /// A number that any format must give back to the bit: what JSON cannot hold (NaN, infinities, minus zero) becomes text.
     #[must_use]
     pub fn exact(x: f64) -> Self {
         if x.is_finite() && x.to_bits() != (-0.0f64).to_bits() {
@@ -75,7 +75,7 @@ impl Value {
         Self::Text(text.to_owned())
     }
 
-    /// Appends words that tell this value from every other one: its kind, its length, its contents.
+    /// Appends words that no other value has: its kind, its length, its contents.
     pub fn bits(&self, words: &mut Vec<u64>) {
         let text = |s: &str, words: &mut Vec<u64>| {
             words.push(s.len() as u64);
@@ -84,7 +84,7 @@ impl Value {
         match self {
             Self::Null => words.push(0),
             Self::Bool(b) => words.extend([1, u64::from(*b)]),
-            // minus zero is zero here: JSON in JavaScript does not tell them apart
+            // minus zero is zero here: JSON in JavaScript does not distinguish them
             Self::Number(x) => words.extend([2, (x + 0.0).to_bits()]),
             Self::Text(s) => {
                 words.push(3);
@@ -269,12 +269,12 @@ impl<'a> Node<'a> {
         self.path.positive(self.float()?)
     }
 
-    /// An integer that passes [`Path::whole`].
+    /// An integer that passes [`Path::integer`].
     ///
     /// # Errors
-    /// `wrong-type`, and those of [`Path::whole`].
-    pub fn whole(&self, low: usize, high: usize) -> Result<usize> {
-        self.path.whole(self.float()?, low, high)
+    /// `wrong-type`, and those of [`Path::integer`].
+    pub fn integer(&self, low: usize, high: usize) -> Result<usize> {
+        self.path.integer(self.float()?, low, high)
     }
 
     /// A number that [`Value::exact`] wrote.
@@ -361,7 +361,7 @@ impl<'a> Node<'a> {
     /// A list of numbers, each passed through `check`.
     ///
     /// # Errors
-    /// `wrong-type`, and what `check` says.
+    /// `wrong-type`, and those of `check`.
     pub fn numbers(&self, check: fn(&Node<'_>) -> Result<f64>) -> Result<Vec<f64>> {
         let items = self.items()?;
         let mut numbers = Vec::with_capacity(items.len());

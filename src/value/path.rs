@@ -69,7 +69,7 @@ impl<'a> Path<'a> {
     }
 
     /// An integer from `low` to `high`; above `high` the code is `too-large`.
-    pub fn whole(&self, x: f64, low: usize, high: usize) -> Result<usize> {
+    pub fn integer(&self, x: f64, low: usize, high: usize) -> Result<usize> {
         let x = self.number(x)?;
         let must = || format!("must be an integer from {low} to {high}");
         if x.fract() != 0.0 || x < low as f64 {

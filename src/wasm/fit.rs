@@ -34,7 +34,7 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
             constants.items()?.map(|path| Ok(path.text()?.to_owned())).collect::<crate::Result<Vec<_>>>()?;
     }
     if let Some(evaluations) = fields.optional("evaluations") {
-        options.evaluations = evaluations.whole(1, 100_000)?;
+        options.evaluations = evaluations.integer(1, 100_000)?;
     }
     let extra = match fields.optional("destination") {
         None => Value::Null,

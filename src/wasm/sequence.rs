@@ -60,7 +60,7 @@ impl SequenceEngine {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["step", "position"])?;
-        let step = self.whole_step(&fields.required("step")?)?;
+        let step = self.integer_step(&fields.required("step")?)?;
         Ok(self.sequence.measure(step, &fields.required("position")?.vector(None)?)?)
     }
 
@@ -84,8 +84,8 @@ impl SequenceEngine {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["seed", "count"])?;
-        let seed = fields.required("seed")?.whole(0, u32::MAX as usize)?;
-        let count = fields.required("count")?.whole(0, u32::MAX as usize)?;
+        let seed = fields.required("seed")?.integer(0, u32::MAX as usize)?;
+        let count = fields.required("count")?.integer(0, u32::MAX as usize)?;
         Ok(self.sequence.sample(seed as u64, count)?.concat())
     }
 
@@ -105,10 +105,10 @@ impl SequenceEngine {
     fn step(&self, value: JsValue) -> crate::Result<usize> {
         let value = data::read(&value)?;
         let node = Node::root(&value, "");
-        self.whole_step(&node.fields(&["step"])?.required("step")?)
+        self.integer_step(&node.fields(&["step"])?.required("step")?)
     }
 
-    fn whole_step(&self, node: &Node<'_>) -> crate::Result<usize> {
+    fn integer_step(&self, node: &Node<'_>) -> crate::Result<usize> {
         let (x, last) = (node.number()?, self.sequence.steps());
         if x.fract() == 0.0 && (0.0..=last as f64).contains(&x) {
             return Ok(x as usize);

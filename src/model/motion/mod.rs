@@ -263,7 +263,7 @@ impl Motion {
 }
 
 fn check_dimensions(at: &Path<'_>, dimensions: f64) -> Result<usize> {
-    at.whole(dimensions, 1, MAX_DIMENSIONS).map_err(|error| match error.code() {
+    at.integer(dimensions, 1, MAX_DIMENSIONS).map_err(|error| match error.code() {
         Code::TooLarge => Error::new(Code::OutOfRange, error.path(), error.message()),
         _ => error,
     })
