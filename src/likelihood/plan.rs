@@ -3,7 +3,7 @@
 use crate::math::quadrature::Quadrature;
 use crate::model::arrival::{Arrival, Grid};
 use crate::model::destination::Destinations;
-use std::collections::HashMap;
+use fnv::FnvHashMap;
 
 /// Destinations that have both the arrival nodes and the class of endpoint in common: every matrix serves all of them.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ impl Plan {
         // a grid for each class's own prior, one for all that have none; a grid for each destination under Fitts's law
         let mut shared: Vec<Option<u32>> = vec![None; classes.len()];
         let mut default: Option<u32> = None;
-        let mut groups = HashMap::new();
+        let mut groups = FnvHashMap::default();
         for i in 0..destinations.len() {
             let number = destinations.class_number(i);
             let class = &classes[number];

@@ -68,10 +68,10 @@ impl Predictor {
 
     /// Which of the present destinations each of `changed` is: their motion, and so their evidence, must stay.
     fn origins(&self, changed: &Destinations) -> Result<Vec<usize>> {
+        let places = self.destinations.places();
         let find = |j: usize| {
-            let found =
-                self.destinations.find(changed.id(j)).filter(|&i| self.destinations.center(i) == changed.center(j));
-            found.ok_or_else(|| {
+            let found = places.get(changed.id(j)).copied();
+            found.filter(|&i| self.destinations.center(i) == changed.center(j)).ok_or_else(|| {
                 let message = "cannot be added or moved in mid-movement: the motion model depends on the destination, so \
                                evidence accumulates for each of them";
                 Error::new(Code::MethodAccumulates, format!("destinations[{j}]"), message)

@@ -8,8 +8,8 @@ use crate::math::kernel::layout::{FEW, Layout};
 use crate::math::kernel::mixture::AXES;
 use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
+use fnv::FnvHashMap;
 use nalgebra::DMatrix;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
@@ -206,12 +206,12 @@ impl Classes {
 
     /// By nodes and endpoint, those of one size together.
     fn drafts(&mut self, destinations: &Destinations, plan: &Plan) -> Vec<((usize, usize), Vec<Draft>)> {
-        let (mut known_endpoints, mut known) = (HashMap::new(), HashMap::new());
+        let (mut known_endpoints, mut known) = (FnvHashMap::default(), FnvHashMap::default());
         let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
         for group in &plan.groups {
             let covariance = &destinations.classes()[group.class].covariance();
             let mut members: Vec<(usize, Draft)> = Vec::new();
-            let mut here = HashMap::new();
+            let mut here = FnvHashMap::default();
             for &i in &group.members {
                 let rest = destinations.rest(i as usize);
                 let key: Vec<u64> = rest.iter().map(|x| x.to_bits()).collect();

@@ -3,7 +3,7 @@
 use super::{Destination, Endpoint, EndpointClass};
 use crate::error::{Code, Error, Result};
 use crate::value::{Path, Value, number, quote};
-use std::collections::HashMap;
+use fnv::FnvHashMap;
 use std::ops::Range;
 
 /// More destinations than this are an error, so that no input can exhaust the memory.
@@ -18,8 +18,6 @@ pub struct Destinations {
     endpoints: Vec<Endpoint>,
     /// In the order of their first destinations; each has one.
     classes: Vec<EndpointClass>,
-    /// Their places, sorted by id.
-    by_id: Vec<u32>,
     /// The prior weights in force: those that were given, or learnt.
     priors: Vec<f64>,
 }
@@ -44,10 +42,9 @@ impl Destinations {
             ids: String::new(),
             endpoints: Vec::with_capacity(count),
             classes: Vec::new(),
-            by_id: (0..count as u32).collect(),
             priors: Vec::with_capacity(count),
         };
-        let mut classes: HashMap<Vec<u64>, usize> = HashMap::new();
+        let mut classes: FnvHashMap<Vec<u64>, usize> = FnvHashMap::default();
         for (i, destination) in list.into_iter().enumerate() {
             let path = path.index(i);
             all.ids.push_str(&destination.id);
@@ -68,15 +65,12 @@ impl Destinations {
             all.endpoints.push(endpoint);
         }
         all.classes.shrink_to_fit();
-        let mut by_id = std::mem::take(&mut all.by_id);
-        by_id.sort_unstable_by_key(|&i| (all.id(i as usize), i));
-        for pair in by_id.windows(2) {
-            let [first, second] = [pair[0] as usize, pair[1] as usize];
-            if all.id(first) == all.id(second) {
-                return Err(duplicate(&path.index(second).key("id"), all.id(second), first));
+        let mut places = FnvHashMap::with_capacity_and_hasher(count, Default::default());
+        for (id, second) in all.ids().zip(0usize..) {
+            if let Some(first) = places.insert(id, second) {
+                return Err(duplicate(&path.index(second).key("id"), id, first));
             }
         }
-        all.by_id = by_id;
         all.ids.shrink_to_fit();
         all.check_priors(path)?;
         Ok(all)
@@ -98,15 +92,13 @@ impl Destinations {
     pub fn with(&self, destination: Destination, states: usize) -> Result<Self> {
         let id = destination.id.clone();
         let (mut endpoint, class) = destination.check(&Path::root("destination"), self.dimensions, states)?;
-        let place = match self.search(&id) {
-            Ok(place) => return Err(duplicate(&Path::root("id"), &id, self.by_id[place] as usize)),
-            Err(place) => place,
-        };
+        if let Some(first) = self.find(&id) {
+            return Err(duplicate(&Path::root("id"), &id, first));
+        }
         if self.len() >= MOST_DESTINATIONS {
             return Err(too_many(&Path::root("destinations"), ""));
         }
         let mut changed = self.clone();
-        changed.by_id.insert(place, self.len() as u32);
         changed.ids.push_str(&id);
         endpoint.id_end = changed.ids.len();
         changed.endpoints.push(endpoint);
@@ -141,8 +133,6 @@ impl Destinations {
         changed.endpoints[i..].iter_mut().for_each(|endpoint| endpoint.id_end -= id.len());
         changed.ids.drain(id);
         changed.check_priors(&Path::root("destinations"))?;
-        changed.by_id.retain(|&j| j as usize != i);
-        changed.by_id.iter_mut().for_each(|j| *j -= u32::from(*j as usize > i));
         changed.reclassify(i, None);
         Ok(changed)
     }
@@ -204,15 +194,16 @@ impl Destinations {
         start..self.endpoints[i].id_end
     }
 
-    /// The place of an id in `by_id`, or that where it would be.
-    fn search(&self, id: &str) -> std::result::Result<usize, usize> {
-        self.by_id.binary_search_by_key(&id, |&i| self.id(i as usize))
-    }
-
     /// The place of a destination in the order.
     #[must_use]
     pub fn find(&self, id: &str) -> Option<usize> {
-        self.search(id).ok().map(|place| self.by_id[place] as usize)
+        self.ids().position(|known| known == id)
+    }
+
+    /// The places of all, for those who look many up.
+    #[must_use]
+    pub fn places(&self) -> FnvHashMap<&str, usize> {
+        self.ids().zip(0..).collect()
     }
 
     /// The place of a destination in the order.
