@@ -39,14 +39,14 @@ test("it exports the predictor of pointers and what belongs to it", () => {
 
 const { bases, rows } = read("errors.json");
 
-/** What the errors of a scenario for pointers say of destinations, a `PointerPredictor` says of the targets that it was given. */
+/** Errors of a scenario for pointers name destinations, those of a `PointerPredictor` the targets that it was given. */
 const ofTargets = (text) =>
   text
     .replace(/^destinations/, "targets")
     .replace(/destinations\[/, "targets[")
     .replace("one destination", "one target");
 
-for (const { base, change, code, path, message } of rows.filter((row) => row.base === "pointer")) {
+for (const { change, code, path, message } of rows.filter((row) => row.base === "pointer")) {
   test(`as pointerScenario: ${JSON.stringify(change)}`, () => {
     const { targets, options } = changed(bases.pointer.from, change);
     const keys = { "options.nothing": ', "constants"', "targets[0].z": ', "prior"' };
@@ -67,7 +67,7 @@ const OWN = [
   "/pointing/speed",
 ];
 
-for (const { base, change, code, path, message } of rows.filter((row) => row.base === "pointing" && !row.call)) {
+for (const { change, code, path, message } of rows.filter((row) => row.base === "pointing" && !row.call)) {
   const [pointer] = Object.keys(change);
   if (OWN.includes(pointer)) continue;
   test(`constants as in a scenario: ${JSON.stringify(change)}`, () => {
