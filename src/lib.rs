@@ -73,9 +73,9 @@
 //! | arrival time | `T`, when the object is at its destination; *time to go* is `T - t_k` |
 //! | observation | a noisy position (or any linear function of the state) at a time |
 //! | motion model | how the state moves without regard to the endpoint |
-//! | scenario | the whole configuration |
+//! | scenario | the complete configuration |
 //! | track | one recorded movement |
-//! | predictor | the whole engine, as in the papers (in Stone Soup the word means the time update) |
+//! | predictor | everything that turns observations into answers, as in the papers (in Stone Soup the word means the time update) |
 //! | prediction error | an observation less its prediction; its density is Liang's PED |
 //! | evidence | the density of what was observed, `p(y_2:k given y_1)`, or `p(y_1:k)` where the scenario counts the first observation |
 //! | posterior | the probabilities given the observations |
@@ -88,7 +88,7 @@
 //!
 //! | equation | what | file |
 //! |---|---|---|
-//! | Liang (1) | transition `F, M, Q` | `src/model/motion/mod.rs`, and a file for each `type` beside it |
+//! | Liang (1) | transition `F, M, Q` | `src/model/motion/mod.rs`, and a file for each `type` there |
 //! | Liang (2) | observation | `src/model/observation.rs` |
 //! | Liang (3) | posterior of the destinations | `src/posterior/mod.rs` |
 //! | Liang (4) | the pseudo-observation of the endpoint | `src/model/destination.rs` |

@@ -357,7 +357,7 @@ export interface Pointing {
    * The time to the entry into the target: its logarithm's median is
    * `offset + nodes E[ln R] + near E[distance / (distance + e)] + elapsed t / (t + 1 s)`, with `e` the way to the edge of a target
    * and `t` the time since the first observation; its interval from the median times `exp(low)` to that times `exp(high)`, which holds
-   * about four fifths of recorded mouse samples, but leaves no tenth on each side.
+   * about four fifths of recorded mouse samples, but not with a tenth on each side.
    *
    * @defaultValue the posterior of the time-to-go nodes, which is too early
    */

@@ -215,7 +215,7 @@ export class PointerPredictor {
   }
 
   /**
-   * Gives the memory back. What is not freed is freed when it is garbage-collected, at a time that nobody knows.
+   * Gives the memory back. What is not freed is freed when it is garbage-collected, at no particular time.
    *
    * @throws {@link WhitherError} `freed`, where that was done before.
    */

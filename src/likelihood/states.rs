@@ -9,7 +9,7 @@ use crate::math::gaussian::{condition, propagate};
 use crate::model::endpoint::Endpoint;
 use nalgebra::{DMatrix, DVector};
 
-/// Asks for the state at one time given one arrival node, for destinations that share every matrix there.
+/// The query for the state at one time given one arrival node, for destinations that share every matrix there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StateQuery<'a> {
     /// The movement now.

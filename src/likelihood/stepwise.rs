@@ -19,7 +19,7 @@ pub(crate) struct Stepwise {
     configuration: Arc<Configuration>,
     destinations: Arc<Destinations>,
     filters: Expiring<FilterBank>,
-    /// Of the filters whose likelihoods hold, once it has been asked for.
+    /// Of the filters whose likelihoods hold, once it has been computed.
     nodes: Option<NodePosterior>,
 }
 

@@ -38,7 +38,7 @@ pub struct Gaussian {
     pub covariance: DMatrix<f64>,
 }
 
-/// What a linear observation says of a Gaussian state: gain, corrected covariance, and the density of predicted
+/// A Gaussian state given a linear observation: gain, corrected covariance, and the density of predicted
 /// observations. It depends on no value, only on covariances, so one of it serves every mean.
 #[derive(Clone, Debug)]
 pub struct Conditioning {

@@ -20,7 +20,7 @@ pub struct Bridge {
     pub previous: DMatrix<f64>,
     /// `K`, `s` by `l`; Rezaie and Li's `G_{k,N}` (8).
     pub destination: DMatrix<f64>,
-    /// The covariance of the noise, `s` by `s`; Rezaie and Li's `G_k` (9). Semi-definite where the end leaves no freedom.
+    /// The covariance of the noise, `s` by `s`; Rezaie and Li's `G_k` (9). Semi-definite where the endpoint determines it.
     pub covariance: DMatrix<f64>,
     /// `I - K B`, the share of the Markov model's own step.
     kept: DMatrix<f64>,
@@ -40,8 +40,8 @@ impl Bridge {
         components: usize,
     ) -> Option<Self> {
         let states = step_noise.nrows();
-        let seen = rest_transition.rows(0, components).into_owned();
-        let unseen = rest_noise.view((0, 0), (components, components)).into_owned();
+        let observed = rest_transition.rows(0, components).into_owned();
+        let unobserved = rest_noise.view((0, 0), (components, components)).into_owned();
         let mut kept = DMatrix::identity(states, states);
         if step_noise.iter().all(|&x| x == 0.0) {
             // no time passes: the end has nothing to bend
@@ -52,8 +52,8 @@ impl Bridge {
                 kept,
             });
         }
-        let conditioned = condition(step_noise, &seen, &unseen)?;
-        kept -= &conditioned.gain * &seen;
+        let conditioned = condition(step_noise, &observed, &unobserved)?;
+        kept -= &conditioned.gain * &observed;
         Some(Self {
             previous: &kept * step_transition,
             covariance: conditioned.covariance(),

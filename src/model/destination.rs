@@ -39,7 +39,7 @@ pub struct Destination {
 /// An endpoint `N(a_i, S_i)`, validated, with its prior weight.
 #[derive(Clone, Debug)]
 struct Endpoint {
-    /// Where its id ends in the text of all ids.
+    /// The offset of the end of its id in the text of all ids.
     id_end: usize,
     /// The first `d` components of the mean `a_i`.
     center: [f64; AXES],

@@ -33,7 +33,7 @@ impl Endpoint {
         }
     }
 
-    /// Whether the state leaves something of the endpoint without chance: `G~ Q(R) G~'` is singular, whatever its units.
+    /// Whether the state determines part of the endpoint: `G~ Q(R) G~'` is singular, whatever its units.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         let deviation = |i: usize| self.noise[(i, i)].sqrt();

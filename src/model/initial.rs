@@ -175,8 +175,8 @@ impl InitialDensity {
     }
 
     /// `p(x_1)` where the evidence of the first observation counts, Liang (5)'s `p(y_1 | D_i, T)`: the likelihoods are then those of
-    /// `y_1:k`. By default they are those of `y_2:k` given `y_1`: where a movement begins is mostly chance, and says more about
-    /// the one before it than about where this one goes.
+    /// `y_1:k`. By default they are those of `y_2:k` given `y_1`: where a movement begins is mostly chance, evidence about
+    /// the movement before it more than about where this one goes.
     #[must_use]
     pub const fn counted(&self) -> Option<&Gaussian> {
         match (&self.prior, &self.description) {
@@ -188,7 +188,7 @@ impl InitialDensity {
     /// `p(x_1 | y_1)`.
     ///
     /// # Errors
-    /// `missing-key` where an axis is missing that only the first observation could tell.
+    /// `missing-key` where an axis is missing that only the first observation could give.
     pub fn posterior(&self, model: &ObservationModel, first: &Measurement) -> Result<Gaussian> {
         match &self.prior {
             Prior::Given(prior) => {

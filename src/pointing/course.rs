@@ -1,7 +1,7 @@
 //! The filter of the pointing model: constant velocity whose noise grows with the speed, axis by axis.
 //!
 //! An observation at the time of the last one replaces it: clocks that are rounded, and events stamped by the frame, give several
-//! places one time, and of those the last is where the pointer was then. So the course keeps how it stood before the last one.
+//! places one time, and of those the last is where the pointer was then. So the course keeps its state before the last one.
 
 use super::parameters::PointingConstants;
 use super::{Space, Vector, dot, minus, vector};
@@ -88,7 +88,7 @@ impl Observed {
     }
 }
 
-/// How a movement stood before its last observation.
+/// The state of a movement before its last observation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Before {
     elapsed: f64,
@@ -96,7 +96,7 @@ struct Before {
     axes: Axes,
 }
 
-/// How far a movement has begun: a pointer that rests where it was first observed has not, and what the start says of the
+/// How far a movement has begun: a pointer that rests where it was first observed has not, and the evidence of the start about the
 /// destinations fades.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Onset {
@@ -127,7 +127,7 @@ pub(crate) struct Course<S> {
     pub axes: Axes,
     /// The last observation.
     last: Observed,
-    /// Says nothing at the first observation.
+    /// Meaningless at the first observation.
     before: Before,
 }
 

@@ -31,7 +31,7 @@ pub struct Pair {
     covariance: Symmetric,
 }
 
-/// The pairs one at a time, for all that is not asked of every destination after every observation.
+/// The pairs one at a time, for what is not computed for every destination after every observation.
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs<S> {
     space: S,
@@ -49,7 +49,7 @@ struct Together {
     covariance: Symmetric<Block>,
 }
 
-/// All pairs as they stand after an observation.
+/// All pairs after an observation.
 #[derive(Clone, Debug)]
 pub(crate) struct Nodes<S> {
     space: S,
@@ -57,7 +57,7 @@ pub(crate) struct Nodes<S> {
     velocity: Vector,
     /// How many times to go there are.
     points: usize,
-    /// The times to go, in whole blocks, the last one filled up.
+    /// The times to go, in complete blocks, the last one filled up.
     times: Vec<f64>,
     /// Their logarithms over that of the median.
     log_times: Vec<f64>,
@@ -153,7 +153,7 @@ impl<S: Space> Nodes<S> {
     /// The pairs as terms of a sum, for destinations whose endpoints have one covariance.
     pub fn shared_densities(&self, own: &Symmetric, into: &mut Vec<SharedDensity>) {
         let s = Lanes::splat;
-        let (half, whole, normaliser) = (s(-HALF_LOG2_E), s(-2.0 * HALF_LOG2_E), s(normaliser(self.dimensions())));
+        let (half, full, normaliser) = (s(-HALF_LOG2_E), s(-2.0 * HALF_LOG2_E), s(normaliser(self.dimensions())));
         into.resize(self.noises.len() * self.points, SharedDensity::default());
         let mut terms = into.iter_mut();
         for (pairs, lanes) in self.together() {
@@ -161,10 +161,10 @@ impl<S: Space> Nodes<S> {
             let ([xx, xy, yy, xz, yz, zz], determinant) = inverse(&covariance, self.dimensions());
             let [mut a, mut b, mut c, mut d, mut e, mut f, mut factor] = [[0.0; WIDTH]; 7];
             (half * xx).store(&mut a);
-            (whole * xy).store(&mut b);
+            (full * xy).store(&mut b);
             (half * yy).store(&mut c);
-            (whole * xz).store(&mut d);
-            (whole * yz).store(&mut e);
+            (full * xz).store(&mut d);
+            (full * yz).store(&mut e);
             (half * zz).store(&mut f);
             (Lanes::load(&pairs.weight) * normaliser / determinant.sqrt()).store(&mut factor);
             let [x, y, z] = &pairs.end;

@@ -1,4 +1,4 @@
-//! The time to the entry into the target, as it is told to the user.
+//! The time to the entry into the target, as it is reported to the user.
 
 use super::targets::Extent;
 use super::{Vector, dot};
@@ -28,7 +28,7 @@ pub struct EntryTime {
     pub elapsed: f64,
     /// The interval begins at the median times `exp(low)`.
     pub low: f64,
-    /// The interval ends at the median times `exp(high)`; between the two are about four fifths of the recorded samples, but not a
+    /// The upper end of the interval is the median times `exp(high)`; between the two are about four fifths of the recorded samples, but not a
     /// tenth on each side.
     pub high: f64,
 }
@@ -44,7 +44,7 @@ impl EntryTime {
         self.distance / (self.distance + edge)
     }
 
-    /// The median, and the ends of the interval, in seconds; within what a clock can tell apart.
+    /// The median, and the ends of the interval, in seconds; within the resolution of a clock.
     #[must_use]
     pub(crate) fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
         let median =
@@ -63,7 +63,7 @@ mod tests {
             EntryTime { offset: 0.0, nodes: 1.0, near: -1.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
         let wide = Extent::of_box([300.0, 24.0, 0.0]);
         let near = |x: f64, y: f64| entry.nearness(&[x, y, 0.0], &wide, 2);
-        assert!((near(170.0, 0.0) - 0.5).abs() < 1e-12, "20 beside its right edge");
+        assert!((near(170.0, 0.0) - 0.5).abs() < 1e-12, "20 from its right edge");
         assert!((near(0.0, -32.0) - 0.5).abs() < 1e-12, "20 above its upper edge");
         assert_eq!([near(149.0, 0.0), near(0.0, 0.0)], [1.0, 1.0], "in it");
         // 12 on a side, 50 from the centre, so 44 from the edge

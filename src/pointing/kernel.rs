@@ -18,7 +18,7 @@ use crate::math::kernel::vectors::{Block, Lanes, raise};
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
 const CERTAIN: f64 = -500.0;
 
-/// The variance of a direction that says nothing. None is larger, and the product of three of them is a number still.
+/// The variance of a direction without information. None is larger, and the product of three of them is a number still.
 const NO_DIRECTION: f64 = 1e100;
 
 /// What is this many powers of two below the most probable does not matter.
@@ -139,13 +139,13 @@ fn exponents<S: Space>(class: &Class, places: &Places<'_>, now: &Now<'_, S>, wei
         let variance = across * shrunk * shrunk + nowhere * s(NO_DIRECTION);
         let (wide, core) = (wide + variance, core + variance);
         let wider = wide + angle;
-        let seen = (wider * wider * core) / (wide * wide * (core + angle));
+        let evidence = (wider * wider * core) / (wide * wide * (core + angle));
         let ratio = Lanes::load(exponent).log2();
-        let whole = power * ratio + weight * seen.log2();
+        let exponent_sum = power * ratio + weight * evidence.log2();
         let sure = ((ratio - s(CERTAIN)).at_least(zero)).at_most(one);
-        most = whole.at_least(most);
-        doubtful = (whole - sure * s(1e9)).at_least(doubtful);
-        whole.store(exponent);
+        most = exponent_sum.at_least(most);
+        doubtful = (exponent_sum - sure * s(1e9)).at_least(doubtful);
+        exponent_sum.store(exponent);
     }
     (most.most(), doubtful.most())
 }

@@ -1,7 +1,7 @@
 //! The pointing model: where a hand or a pointer is going. Ours, beyond the papers.
 //!
 //! It keeps their structure, a filter and a closed-form density of the endpoint summed over the time to go, against what
-//! the start alone says of the endpoint, and replaces what recorded hands contradict:
+//! is known of the endpoint from the start alone, and replaces what recorded hands contradict:
 //!
 //! | part | what it is for | where |
 //! |---|---|---|
@@ -9,12 +9,12 @@
 //! | endpoint density | where the movement would end if it went on, some time from now, wider along the way than across | `endpoint` |
 //! | start density | what was already likely before the movement: near targets are many, far ones few | `evidence` |
 //! | direction | the way covered so far points at the target, the better the farther one has come | `evidence` |
-//! | power | the first samples say less than the model believes, the later ones more | [`parameters::Power`] |
+//! | power | the first samples carry less evidence than the model has it, the later ones more | [`parameters::Power`] |
 //! | near | a movement seldom ends where it began | `evidence` |
 //! | onset | a pointer that rests from the start on has not begun a movement, and may mean what it rests on | `course` |
 //!
-//! `targets` and `kernel` do it for all destinations at the speed of the machine; the other parts say it one destination at
-//! a time, for the log likelihoods and whatever else is asked.
+//! `targets` and `kernel` compute it for all destinations at once; the other parts one destination at
+//! a time, for the log likelihoods and everything else.
 //!
 //! Nothing is accumulated for a destination, so destinations may come, go and move at any time.
 

@@ -41,7 +41,7 @@ pub struct PointingConstants {
     /// Distance from the start, in target sizes, below which a destination is unlikely.
     pub near: f64,
     /// Distance from the start within which a pointer comes to count as resting there, the longer the more (`Course::onset`), so
-    /// that what the start says fades: `near` in proportion, the start density by a core that grows with the distance that is missing.
+    /// that the evidence of the start fades: `near` in proportion, the start density by a core that grows with the distance that is missing.
     /// 0: never.
     pub rest_distance: f64,
     /// What a destination has to gain before it counts against "none".
@@ -202,7 +202,7 @@ impl Start {
         let end = (ratio + (ratio * ratio + 1.0).sqrt()).ln();
         let width = end / INTERVALS as f64;
         let integrand = |u: f64| {
-            // sinh and cosh by hand: the library's weigh a kilobyte
+            // sinh and cosh by hand: the library's are a kilobyte
             let (grown, shrunk) = (self.core * u.exp(), self.core * (-u).exp());
             let (radius, length) = (0.5 * (grown - shrunk), 0.5 * (grown + shrunk));
             radius.powi(dimensions as i32 - 1) * ((1.0 - self.exponent) * length.ln()).exp()

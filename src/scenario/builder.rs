@@ -138,7 +138,7 @@ impl ScenarioBuilder {
         Ok(scenario)
     }
 
-    /// The constants of the pointing model, beside which nothing of the papers' is given.
+    /// The constants of the pointing model, with which nothing of the papers' can be combined.
     fn constants(&self) -> Result<PointingConstants> {
         let extra = [
             ("arrival", self.arrival.as_ref().map(Arrival::to_value)),

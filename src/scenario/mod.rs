@@ -32,7 +32,7 @@ const MOST_NUMBERS: u64 = 1 << 27;
 ///     .destination(Destination::new("there", [9.0]).size(1.0))
 ///     .build()?;
 /// let json = serde_json::to_value(&scenario)?;
-/// assert_eq!(json["method"], "pseudoObservation"); // where no other is asked for
+/// assert_eq!(json["method"], "pseudoObservation"); // the default
 /// let again: Scenario = serde_json::from_value(json.clone())?;
 /// assert_eq!(serde_json::to_value(&again)?, json);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

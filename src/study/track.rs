@@ -132,7 +132,7 @@ impl Track {
 
     /// How many samples the approach has: up to and with the last entry into the true target, as far as samples with all their
     /// coordinates show. None where the movement never
-    /// enters it, or begins in it and never leaves.
+    /// enters it, or begins in it and stays.
     #[must_use]
     pub fn approach(&self) -> Option<usize> {
         let target = &self.targets[self.target];
@@ -201,7 +201,7 @@ fn name(node: &Node<'_>) -> Result<String> {
     }
 }
 
-/// All samples, at least one; coordinates that are missing repeat those beside them.
+/// All samples, at least one; coordinates that are missing repeat their neighbours.
 fn read_samples(list: &Node<'_>) -> Result<Vec<Sample>> {
     let mut samples: Vec<Sample> = Vec::with_capacity(list.items()?.len());
     for item in list.items()? {

@@ -12,7 +12,7 @@ pub fn quote(text: &str) -> String {
 #[cfg(all(any(feature = "wasm", feature = "wasm-fit"), target_arch = "wasm32"))]
 #[must_use]
 pub fn number(x: f64) -> String {
-    // JavaScript has this already; in Rust the printing of floating-point numbers weighs 8 kB under gzip
+    // JavaScript has this already; in Rust the printing of floating-point numbers is 8 kB under gzip
     crate::wasm::number(x)
 }
 

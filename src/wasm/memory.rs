@@ -1,5 +1,5 @@
 //! Reserves memory before a call. Running out of memory in the middle of a call ends in a trap, after which the object that was
-//! used stays locked and what was allocated stays allocated; so `js/core/memory.ts` asks first.
+//! used stays locked and what was allocated stays allocated; so `js/core/memory.ts` calls this first.
 
 use std::hint::black_box;
 use wasm_bindgen::prelude::wasm_bindgen;

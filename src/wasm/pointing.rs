@@ -94,7 +94,7 @@ impl PointerEngine {
         }
     }
 
-    /// The targets with their shares of the probability beside none, or one of them alone.
+    /// The targets with their shares of the probability that is not none, or one of them alone.
     fn shares(&self, movement: &Pointing<Plane>, only: Option<usize>) -> Vec<(usize, f64)> {
         shares::beside_none(&self.probabilities, self.targets.priors(), only, || {
             let mut log_likelihoods = Vec::new();

@@ -49,7 +49,7 @@ use crate::value::{Node, Value};
 use std::sync::Arc;
 use telescoped::Telescoped;
 
-/// The engine: probabilities from flat arrays, everything else from the dense form, made when it is asked for.
+/// The engine: probabilities from flat arrays, everything else from the dense form, made when it is needed.
 #[derive(Clone, Debug)]
 pub(crate) struct PseudoObservation {
     configuration: Arc<Configuration>,

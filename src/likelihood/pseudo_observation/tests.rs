@@ -291,7 +291,7 @@ fn of_a_large_map_only_what_can_be_reached_is_evaluated() {
     assert!(worst.probability > 0.0, "compared with itself");
 }
 
-/// Twenty destinations whose arrival times have all passed, beside one that can still be reached.
+/// Twenty destinations whose arrival times have all passed, and one that can still be reached.
 #[test]
 fn what_can_no_longer_be_reached_in_time_has_no_likelihood() {
     let gone = |i: usize| {

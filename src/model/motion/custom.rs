@@ -106,7 +106,7 @@ impl MotionModel for Custom {
     }
 }
 
-/// Elimination with the largest pivot, of the matrix scaled to a unit diagonal so that units do not matter (beside a zero
+/// Elimination with the largest pivot, of the matrix scaled to a unit diagonal so that units do not matter (next to a zero
 /// on the diagonal all must be zero): where the largest pivot left is zero, nothing else may be left.
 fn is_positive_semidefinite(matrix: &DMatrix<f64>) -> bool {
     let states = matrix.nrows();

@@ -297,7 +297,7 @@ proptest! {
     }
 }
 
-/// Code and whole text of what a motion is refused for.
+/// Code and complete text of the errors of motions.
 #[test]
 fn bad_motions_are_refused_by_name() {
     let custom = |rest: &str| format!(r#"{{"type": "custom", "dimensions": 2, {rest}}}"#);
