@@ -283,12 +283,11 @@ function coordinate(value: unknown, axis: number): number {
       : number(value, `position[${axis}]`);
 }
 
-/** The prior of none, which the constants may have too, being a scenario. */
+/** The prior of none: that of the options, else that of the constants, which may be a scenario. */
 function readNone(given: { readonly none?: unknown; readonly constants?: unknown }): number {
   const learnt = (given.constants as PointerConstants | null | undefined)?.none;
   const stated = isAbsent(given.none) ? learnt : given.none;
   const none = isAbsent(stated) ? 0 : number(stated, "none");
   if (!(none >= 0 && none < 1)) refuse("out-of-range", "none", "must be at least 0 and less than 1", none);
-  if (!isAbsent(learnt) && learnt !== none) refuse("out-of-range", "none", `must be that of the constants, ${learnt}`, none);
   return none;
 }

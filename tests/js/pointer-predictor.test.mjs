@@ -210,3 +210,9 @@ test("constants are those that fit learns, or any part of them", () => {
   }
   assert.notDeepEqual(plain.probabilities(), pointers[0].probabilities());
 });
+
+test("none is that of the options, else that of the constants", () => {
+  const target = { id: "only", x: 10, y: 10, width: 9, height: 9 };
+  const noneOf = (options) => new pointing.PointerPredictor([target], options).none;
+  assert.deepEqual([{}, { constants: { none: 0.1 } }, { none: 0.2, constants: { none: 0.1 } }].map(noneOf), [0, 0.1, 0.2]);
+});

@@ -91,12 +91,7 @@ test("what else is wrong with targets, options and constants", () => {
   refuses(make(without), "out-of-range", "targets", "the priors must have a finite sum above 0, it is 0");
   refuses(make(targets, [1, "two", [], {}, 5]), "wrong-type", "options", 'must be an object, got [1, "two", [], an object, ...]');
   refuses(make(targets, { none: "x" }), "wrong-type", "none", 'must be a number, got "x"');
-  refuses(
-    make(targets, { none: 0.2, constants: { none: 0.1 } }),
-    "out-of-range",
-    "none",
-    "must be that of the constants, 0.1, got 0.2",
-  );
+  refuses(make(targets, { constants: { none: 1 } }), "out-of-range", "none", "must be at least 0 and less than 1, got 1");
   const constants = (given) => make(targets, { constants: given });
   refuses(constants(3), "wrong-type", "constants", "must be an object, got 3");
   refuses(constants({ method: "bridging" }), "out-of-range", "method", 'must be "pointing" in whither/pointing, got "bridging"');
