@@ -3,8 +3,8 @@ import type { ConstantVelocity, Observation, Pointing, Scenario, Vector } from "
 import { type Check, fields, isAbsent, list, notNegative, number, positive, refuse } from "../core/read.js";
 
 /** Some of the numbers of an object, and of the objects in it. */
-type Some<T> = {
-  readonly [K in keyof T]?: T[K] extends number | Vector | undefined ? T[K] : Some<NonNullable<T[K]>> | undefined;
+export type DeepPartial<T> = {
+  readonly [K in keyof T]?: T[K] extends number | Vector | undefined ? T[K] : DeepPartial<NonNullable<T[K]>> | undefined;
 };
 
 /**
@@ -13,13 +13,13 @@ type Some<T> = {
  */
 export interface PointerConstants extends Partial<Pick<Scenario, "method" | "none" | "destinations">> {
   /** The filter's noise. */
-  readonly motion?: Some<ConstantVelocity> | undefined;
+  readonly motion?: DeepPartial<ConstantVelocity> | undefined;
   /** How positions are observed: a deviation, or one for each axis. */
   readonly observation?: Pick<Observation, "noise"> | undefined;
   /** The deviation of the velocity at the first observation, or one for each axis. */
   readonly initial?: { readonly velocity?: number | Vector | undefined } | undefined;
   /** The constants of the model. */
-  readonly pointing?: Some<Pointing> | undefined;
+  readonly pointing?: DeepPartial<Pointing> | undefined;
 }
 
 /** A number, or one for each axis; they take two places. */

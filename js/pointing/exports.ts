@@ -9,6 +9,6 @@ export type { Gaussian } from "../core/gaussian.js";
 export { initSync } from "../core/loading/instance.js";
 export type { CompiledModule, ResponseLike, UrlLike, WasmLocation, WasmSource } from "../core/loading/source.js";
 export type { Position, Remaining } from "../core/predictor.js";
-export type { PointerConstants } from "./constants.js";
+export type { DeepPartial, PointerConstants } from "./constants.js";
 export { type PointerOptions, PointerPredictor } from "./predictor.js";
 export type { PointerTarget } from "./targets.js";
