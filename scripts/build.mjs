@@ -90,7 +90,7 @@ async function bundle() {
 /** Where the names with a `#` lead in an entry with this module of WebAssembly: to its generated code, and to files of their own. */
 function aliases(module) {
   const { bytes } = modules.find(({ name }) => name === module);
-  const file = (name) => ({ path: `./${name}`, external: true });
+  const file = (name) => ({ path: `./${name}`, external: true, sideEffects: false });
   return {
     "#wasm": { path: join(root, `js/generated/${module}.js`) },
     "#bytes": file(`${bytes}.js`),

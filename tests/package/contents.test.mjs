@@ -18,6 +18,11 @@ test("the package", async (t) => {
   const read = (name) => readFileSync(join(installed, name));
   const metadata = JSON.parse(read("package.json"));
 
+  await t.test("imports nothing for its effects alone, of which bundlers warn", () => {
+    const scripts = files.filter((name) => name.endsWith(".js"));
+    assert.deepEqual(scripts.filter((name) => /\bimport\s*["']/.test(read(name).toString())), []);
+  });
+
   await t.test("ships these files and no others, but for pages of documentation", () => {
     assert.deepEqual(files.filter((name) => !/^docs\/[\w-]+\.md$/.test(name)).sort(), [
       "ARCHITECTURE.md",
