@@ -20,7 +20,10 @@ test("the package", async (t) => {
 
   await t.test("imports nothing for its effects alone, of which bundlers warn", () => {
     const scripts = files.filter((name) => name.endsWith(".js"));
-    assert.deepEqual(scripts.filter((name) => /\bimport\s*["']/.test(read(name).toString())), []);
+    assert.deepEqual(
+      scripts.filter((name) => /\bimport\s*["']/.test(read(name).toString())),
+      [],
+    );
   });
 
   await t.test("ships these files and no others, but for pages of documentation", () => {

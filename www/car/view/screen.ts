@@ -50,8 +50,8 @@ export class Screen {
 
   /** The icon that an element belongs to, or null. */
   iconOf(element: Element | null): number | null {
-    const found = element?.closest("button[data-destination]");
-    const index = this.#buttons.findIndex((each) => each === found);
+    const found = element?.closest<HTMLButtonElement>("button[data-destination]");
+    const index = found ? this.#buttons.indexOf(found) : -1;
     return index < 0 ? null : index;
   }
 
