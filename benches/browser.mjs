@@ -1,6 +1,7 @@
 // The part in Chromium: wall-clock time of the page's one thread. Bundled by scripts/bench.mjs, called from outside.
 import { ForesightManager } from "js.foresight";
 import { init, pointerScenario, Predictor } from "whither";
+import { init as initPointing, PointerPredictor } from "whither/pointing";
 import { cases } from "./cases.mjs";
 import { interleave } from "./measure.mjs";
 import { effort, measureCases } from "./suite.mjs";
@@ -44,7 +45,8 @@ async function measureForesight(options) {
       after?.();
     }
   };
-  const predictor = new Predictor(pointerScenario(targets));
+  await initPointing();
+  const predictor = new PointerPredictor(targets);
   const into = new Float64Array(count);
   let time = 0;
   const ours = new EventTarget();

@@ -148,10 +148,11 @@ async function starts(browser, url, pages) {
 /** Runs in the page. */
 async function firstPrediction(entry) {
   const start = performance.now();
-  const { init, pointerScenario, Predictor } = await import(`/dist/${entry}.js`);
+  const { init, PointerPredictor, pointerScenario, Predictor } = await import(`/dist/${entry}.js`);
   await init();
   const target = (id, x) => ({ id, x, y: 200, width: 80, height: 80 });
-  const predictor = new Predictor(pointerScenario([target("left", 100), target("right", 600)]));
+  const targets = [target("left", 100), target("right", 600)];
+  const predictor = entry === "pointing" ? new PointerPredictor(targets) : new Predictor(pointerScenario(targets));
   predictor.observe(0, [300, 200]);
   predictor.observe(0.016, [310, 200]);
   predictor.probabilities();
