@@ -91,7 +91,7 @@ pub(crate) trait Engine: Send + Sync {
     fn boxed(&self) -> Box<dyn Engine>;
 }
 
-// Not a supertrait: each engine's would be linked in for all that it holds, a tenth of the WebAssembly.
+// Not a supertrait: each engine's would be linked in for all that it holds, a twelfth of the WebAssembly.
 impl fmt::Debug for dyn Engine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Engine")
