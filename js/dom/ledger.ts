@@ -1,0 +1,50 @@
+/**
+ * What came of the movements that ended in a press. Kept in memory alone; only the page's own code can give it away.
+ *
+ * @module
+ */
+import type { WatchTarget } from "./types.js";
+
+/** How a press was predicted. */
+export interface Outcome<T extends WatchTarget = WatchTarget> {
+  /** What was pressed. */
+  readonly target: T;
+  readonly id: string | undefined;
+  readonly name: string | undefined;
+  readonly data: unknown;
+  /** When, in milliseconds on the clock of `performance.now()`. */
+  readonly time: number;
+  readonly pointerType: string;
+  /** Right: the target was intended before the press, and no other one in this movement. Wrong: another one was. Unsure: none was. */
+  readonly verdict: "right" | "wrong" | "unsure";
+  /** The first other target that was intended; null where the verdict is not "wrong". */
+  readonly mistaken: T | null;
+  /** Seconds from the intent of the target, after the last one of another, to the press; 0 without one. */
+  readonly lead: number;
+  /** Its posterior probability before the press. */
+  readonly probability: number;
+}
+
+/** The numbers over all presses of a ledger. */
+export interface LedgerSummary {
+  readonly presses: number;
+  /** Shares of all presses. */
+  readonly right: number;
+  readonly wrong: number;
+  /** The median lead, in seconds. */
+  readonly lead: number;
+  /** Expected calibration error of the most probable target's probability, over ten bins; null before there is one. */
+  readonly calibration: number | null;
+}
+
+/** The outcomes of a watcher. */
+export interface Ledger<T extends WatchTarget = WatchTarget> {
+  /** The last thousand, oldest first. */
+  readonly outcomes: readonly Outcome<T>[];
+  /** The numbers over all of them; null before the first press. */
+  summary(): LedgerSummary | null;
+  /** Plain data: the summary, and the outcomes without their elements. */
+  toJSON(): unknown;
+  /** With `record`, the movements as lines of JSON that `npm run evaluate` and `fit` of `whither/study` read. */
+  lines(): string[];
+}
