@@ -1,5 +1,6 @@
 /**
- * What came of the movements that ended in a press. Kept in memory alone; only the page's own code can give it away.
+ * What came of the movements that ended in a press. Kept in memory alone; only the page's own code can give it away. There is
+ * nothing to record before the part that predicts is loaded, so the records are there.
  *
  * @module
  */
@@ -41,10 +42,22 @@ export interface LedgerSummary {
 export interface Ledger<T extends WatchTarget = WatchTarget> {
   /** The last thousand, oldest first. */
   readonly outcomes: readonly Outcome<T>[];
-  /** The numbers over all of them; null before the first press. */
+  /** The numbers over these, and the calibration over all; null before the first press. */
   summary(): LedgerSummary | null;
   /** Plain data: the summary, and the outcomes without their elements. */
   toJSON(): unknown;
-  /** With `record`, the movements as lines of JSON that `npm run evaluate` and `fit` of `whither/study` read. */
+  /** With `record`, the movements of the last thousand presses as lines of JSON that `npm run evaluate` and `fit` of `whither/study` read. */
   lines(): string[];
+}
+
+/** A ledger of records that there are later. */
+export function ledgerOf(records: () => Ledger | undefined): Ledger {
+  return {
+    get outcomes() {
+      return records()?.outcomes ?? [];
+    },
+    summary: () => records()?.summary() ?? null,
+    toJSON: () => records()?.toJSON() ?? { summary: null, outcomes: [] },
+    lines: () => records()?.lines() ?? [],
+  };
 }

@@ -1,7 +1,438 @@
-/** In work: the names alone. */
-import type { Watcher, WatchOptions, WatchTarget, WatchTargets } from "./types.js";
+/**
+ * Joins the other files: events to pointers, pointers to predictions, what is predicted to intents, and what came of them.
+ *
+ * @module
+ */
+import type { Gaussian } from "../core/gaussian.js";
+import { dispose as disposeName } from "../core/lifetime.js";
+import type { Remaining } from "../core/predictor.js";
+import { notNegative, refuse } from "../core/read.js";
+import { Calls } from "./calls.js";
+import { listenToFocus } from "./focus.js";
+import { Hand } from "./hand.js";
+import { Intents } from "./intent.js";
+import { ledgerOf } from "./ledger.js";
+import { nowhere } from "./nowhere.js";
+import { readOptions, type Settings } from "./options.js";
+import { browser, type Platform, type Stop } from "./platform.js";
+import { listenToPointers, type Place, type PointerId, type PointerSinks, type Sample } from "./pointers.js";
+import type { Prediction } from "./prediction/prediction.js";
+import { Presence } from "./presence.js";
+import { RESTING, snapshotOf } from "./snapshot.js";
+import { type Exchange, type Target, Targets } from "./targets.js";
+import type { Probable, Snapshot, TargetOptions, Watcher, WatchOptions, WatchTarget, WatchTargets } from "./types.js";
 
-/** Watches targets. */
-export function watch<T extends WatchTarget = Element>(_targets: WatchTargets, _options?: WatchOptions<T>): Watcher<T> {
-  throw new Error("in work");
+const dispose: typeof Symbol.dispose = disposeName;
+
+/** So many events are kept until the part that predicts is loaded. */
+const MOST_KEPT = 4096;
+
+/**
+ * Watches targets on a page: which of them a pointer is on its way to, and when one of them is meant.
+ *
+ * Nothing waits for it, and it throws nothing into the page: what goes wrong later goes to `onError`. On a server it does nothing.
+ *
+ * @param targets - A selector, which is live; an element; a virtual target; or any number of elements and virtual targets.
+ * @param options - What to do otherwise than by default, and what to call.
+ * @throws {@link WhitherError} for an unknown option, a value that is not legal, a selector that does not parse.
+ *
+ * @example
+ * ```ts
+ * const watcher = watch("nav a, [data-card]", {
+ *   onIntent: ({ target, signal }) => prefetch((target as HTMLAnchorElement).href, { signal }),
+ * });
+ * watcher.stop();
+ * ```
+ */
+export function watch<T extends WatchTarget = Element>(targets: WatchTargets, options?: WatchOptions<T>): Watcher<T> {
+  return watchOn(browser(), targets, options as WatchOptions) as unknown as Watcher<T>;
+}
+
+/** As {@link watch}, on any platform; null for none. */
+export function watchOn(platform: Platform | null, targets: WatchTargets, options?: WatchOptions): Watcher {
+  return platform ? new PageWatcher(platform, targets, options) : nowhere();
+}
+
+class PageWatcher implements Watcher, PointerSinks {
+  readonly ledger = ledgerOf(() => this.#prediction?.ledger);
+  readonly ready: Promise<void>;
+  readonly #platform: Platform;
+  readonly #targets: Targets;
+  readonly #presence: Presence;
+  readonly #intents: Intents;
+  readonly #calls: Calls;
+  readonly #hands = new Map<number, Hand>();
+  readonly #listeners = new Set<() => void>();
+  #given: WatchOptions;
+  #settings: Settings;
+  #prediction: Prediction | null = null;
+  #loading = false;
+  /** What is done once it is loaded. */
+  #kept: ((prediction: Prediction) => void)[] = [];
+  #resolve!: () => void;
+  #reject!: (error: unknown) => void;
+  #snapshot: Snapshot = RESTING;
+  #frame: Stop | null = null;
+  #ending: Stop | null = null;
+  #state: "running" | "paused" | "stopped" = "running";
+
+  constructor(platform: Platform, targets: WatchTargets, options: WatchOptions | undefined) {
+    this.#platform = platform;
+    this.#settings = readOptions(options);
+    this.#given = { ...options };
+    this.#targets = new Targets(targets, this.#settings);
+    this.ready = new Promise((resolve, reject) => {
+      this.#resolve = resolve;
+      this.#reject = reject;
+    });
+    // nobody has to wait for it
+    this.ready.catch(() => {});
+    const settings = () => this.#settings;
+    this.#calls = new Calls(platform, () => this.#settings.onError);
+    this.#intents = new Intents(platform, settings, () => this.#hands.values(), {
+      begun: (intent, target) => {
+        this.#request();
+        return this.#calls.call(target.settings.onIntent ?? this.#settings.onIntent, intent);
+      },
+      ended: (release) => {
+        this.#request();
+        this.#calls.call(this.#settings.onRelease, release);
+      },
+      failed: (error) => this.#calls.report(error),
+    });
+    this.#presence = new Presence(platform, this.#targets, {
+      changed: () => this.#request(),
+      visible: (target) => this.#intents.visible(target),
+      listen: (view) => this.#listen(view),
+    });
+    this.#take({ added: [...this.#targets.all], removed: [] });
+    this.#begin();
+  }
+
+  get targets(): readonly WatchTarget[] {
+    this.#sync();
+    return Array.from(this.#targets.all, ({ node }) => node);
+  }
+
+  get best(): Probable | null {
+    return this.#snapshot.best;
+  }
+
+  get none(): number {
+    return this.#snapshot.none;
+  }
+
+  get remaining(): Remaining | null {
+    return this.#prediction?.remaining ?? null;
+  }
+
+  probability(node: WatchTarget): number {
+    const target = this.#targets.find(node);
+    return (target && this.#prediction?.probability(target)) ?? 0;
+  }
+
+  forecast(seconds: number): Gaussian | null {
+    return this.#prediction?.forecast(notNegative(seconds, "seconds")) ?? null;
+  }
+
+  path(node: WatchTarget, seconds: readonly number[]): Float64Array {
+    const target = this.#targets.find(node);
+    const later = Array.from(seconds, (each, i) => notNegative(each, `seconds[${i}]`));
+    return (target && this.#prediction?.path(target, later)) ?? new Float64Array(0);
+  }
+
+  set(node: WatchTarget, options: TargetOptions | null): void {
+    this.#sync();
+    this.#targets.set(node, options);
+    this.#outdate();
+  }
+
+  add(...nodes: WatchTarget[]): void {
+    this.#take(this.#targets.add(nodes));
+  }
+
+  remove(...nodes: WatchTarget[]): void {
+    this.#take(this.#targets.remove(nodes));
+  }
+
+  refresh(): void {
+    this.#targets.stale = true;
+    this.#sync();
+    this.#outdate();
+  }
+
+  update(options: WatchOptions): void {
+    if (typeof options !== "object" || options === null) refuse("wrong-type", "options", "must be an object", options);
+    const given = { ...this.#given, ...options };
+    const { none, constants, predictor } = this.#settings;
+    const settings = readOptions(given);
+    const exchange = this.#targets.change({ settings });
+    this.#given = given;
+    this.#settings = settings;
+    this.#take(exchange);
+    if (none !== settings.none || constants !== settings.constants || predictor !== settings.predictor) {
+      this.#prediction?.renew();
+    }
+    if (!settings.decorate) {
+      this.#prediction?.decorate(false);
+      this.#intents.unmark();
+    }
+    if (this.#state === "running") this.#begin();
+    this.#outdate();
+  }
+
+  pause(): void {
+    if (this.#state !== "running") return;
+    this.#state = "paused";
+    this.#rest();
+  }
+
+  resume(): void {
+    if (this.#state !== "paused") return;
+    this.#state = "running";
+    this.#begin();
+    this.#outdate();
+  }
+
+  stop(): void {
+    if (this.#state === "stopped") return;
+    this.#state = "stopped";
+    this.#rest();
+    this.#presence.stop();
+    this.#prediction?.free();
+    this.#ending?.();
+    this.#listeners.clear();
+  }
+
+  subscribe(listener: () => void): () => void {
+    if (typeof listener !== "function") refuse("wrong-type", "listener", "must be a function", listener);
+    const own = () => listener();
+    this.#listeners.add(own);
+    return () => {
+      this.#listeners.delete(own);
+    };
+  }
+
+  getSnapshot(): Snapshot {
+    return this.#snapshot;
+  }
+
+  [dispose](): void {
+    this.stop();
+  }
+
+  moved(pointer: PointerId, samples: readonly Sample[], view: Window, place: Place | null): void {
+    const hand = this.#hand(pointer);
+    const over = place && this.#at(place);
+    const before = hand.over ?? over ?? [];
+    hand.place = place ?? hand.place;
+    if (over) this.#over(hand, over, "hover");
+    const now = this.#platform.now();
+    this.#load();
+    this.#predicting((prediction) => {
+      if (prediction.moved(hand, samples, view, before, now)) this.#request();
+    });
+  }
+
+  touched(pointer: PointerId, place: Place): void {
+    const [target] = this.#at(place);
+    if (target) this.#intents.touch(this.#hand(pointer), target);
+  }
+
+  pressed(pointer: PointerId, place: Place): void {
+    const hand = this.#hand(pointer);
+    const targets = this.#at(place);
+    const outcome = this.#prediction?.press(hand, targets);
+    this.#intents.press(hand, targets);
+    if (outcome) this.#calls.call(this.#settings.onOutcome, outcome);
+    this.#predicting((prediction) => prediction.end(hand));
+    this.#intents.review();
+    this.#request();
+  }
+
+  lost(pointerId: number): void {
+    const hand = this.#hands.get(pointerId);
+    if (hand) this.#lose(hand);
+  }
+
+  gone(pointerId: number): void {
+    const hand = this.#hands.get(pointerId);
+    if (!hand) return;
+    this.#hands.delete(pointerId);
+    this.#intents.forget(hand);
+    this.#predicting((prediction) => prediction.drop(hand));
+    this.#intents.review();
+    this.#request();
+  }
+
+  hidden(): void {
+    for (const hand of this.#hands.values()) this.#lose(hand);
+  }
+
+  /** A movement is over without a press, and the pointer over nothing. */
+  #lose(hand: Hand): void {
+    this.#intents.forget(hand);
+    this.#predicting((prediction) => prediction.end(hand));
+    hand.moveOver([]);
+    hand.over = hand.place = null;
+    this.#intents.review();
+    this.#request();
+  }
+
+  #hand(pointer: PointerId): Hand {
+    let hand = this.#hands.get(pointer.pointerId);
+    if (!hand) this.#hands.set(pointer.pointerId, (hand = new Hand(pointer)));
+    return hand;
+  }
+
+  #over(hand: Hand, over: readonly Target[], by: "hover" | "scroll"): void {
+    if (!hand.moveOver(over)) return;
+    this.#intents.over(hand, by);
+    this.#intents.review();
+  }
+
+  #at(place: Place): Target[] {
+    this.#sync();
+    return this.#targets.at(place.path, place);
+  }
+
+  #focused(path: readonly EventTarget[], ahead: readonly Element[]): void {
+    this.#sync();
+    const found = (nodes: readonly EventTarget[]) => nodes.flatMap((node) => this.#targets.find(node) ?? []);
+    this.#intents.focus(found(path)[0] ?? null, found(ahead));
+  }
+
+  /** Begins to follow pointers and the focus, or again with other options. */
+  #begin(): void {
+    const { signal, load } = this.#settings;
+    this.#ending?.();
+    this.#ending = null;
+    if (signal?.aborted) {
+      this.stop();
+      return;
+    }
+    if (signal) this.#ending = this.#platform.listen(signal, ["abort"], () => this.stop());
+    this.#presence.listen();
+    if (load === "eager") this.#load();
+    if (load === "idle") this.#platform.idle(() => this.#load());
+    for (const target of this.#targets.all) this.#intents.visible(target);
+  }
+
+  #listen(view: Window): Stop {
+    const { pointers, raw, reasons } = this.#settings;
+    const stops = [
+      listenToPointers(this.#platform, view, this, ({ pointerType }) => pointers.includes(pointerType), raw),
+      listenToFocus(
+        this.#platform,
+        view,
+        reasons.keyboard ?? 0,
+        (path, ahead) => this.#focused(path, ahead),
+        (error) => this.#calls.report(error),
+      ),
+    ];
+    return () => {
+      for (const stop of stops) stop();
+    };
+  }
+
+  /** Follows nothing any more, and ends every movement and intent. */
+  #rest(): void {
+    this.#presence.deafen();
+    this.#frame?.();
+    this.#frame = null;
+    this.#kept = [];
+    for (const hand of this.#hands.values()) this.#prediction?.drop(hand);
+    this.#hands.clear();
+    this.#intents.clear();
+    this.#publish();
+  }
+
+  /** Loads the part that predicts and the core, once. */
+  #load(): void {
+    if (this.#loading || this.#state !== "running") return;
+    this.#loading = true;
+    this.#platform.load(this.#settings.predictor).then(
+      ({ Prediction, core, surface }) => {
+        if (this.#state === "stopped") return;
+        const prediction = new Prediction(core, {
+          platform: this.#platform,
+          surface,
+          targets: this.#targets,
+          presence: this.#presence,
+          settings: () => this.#settings,
+          intents: this.#intents,
+          scrolled: (hand, path, place) => this.#over(hand, this.#targets.at(path, place), "scroll"),
+        });
+        this.#prediction = prediction;
+        for (const run of this.#kept.splice(0)) run(prediction);
+        this.#resolve();
+        this.#request();
+      },
+      (error: unknown) => {
+        this.#kept = [];
+        this.#reject(error);
+        if (this.#state !== "stopped") this.#calls.report(error);
+      },
+    );
+  }
+
+  /** Does something with the prediction, now or when it is loaded. */
+  #predicting(run: (prediction: Prediction) => void): void {
+    if (this.#prediction) run(this.#prediction);
+    else if (this.#loading && this.#kept.push(run) > MOST_KEPT) this.#kept.shift();
+  }
+
+  /** Asks for a frame, if there is none yet. */
+  #request(): void {
+    if (this.#state !== "running") return;
+    this.#frame ??= this.#platform.frame(() => {
+      this.#frame = null;
+      this.#calls.call(() => this.#draw(), undefined);
+    });
+  }
+
+  #draw(): void {
+    this.#sync();
+    const again = this.#prediction?.draw();
+    this.#intents.review();
+    this.#publish();
+    if (again) this.#request();
+  }
+
+  /** Writes on the page, and hands out what has changed. */
+  #publish(): void {
+    const intended = this.#intents.targets;
+    const snapshot = snapshotOf(this.#prediction?.posterior() ?? null, intended, this.#snapshot);
+    if (snapshot === this.#snapshot) return;
+    this.#snapshot = snapshot;
+    this.#prediction?.decorate(this.#settings.decorate);
+    for (const listener of [...this.#listeners]) this.#calls.call(listener, undefined);
+    this.#calls.call(this.#settings.onPrediction, snapshot);
+  }
+
+  /** Finds the elements of a live selector again, if there may be others. */
+  #sync(): void {
+    if (this.#targets.stale && this.#state !== "stopped") {
+      this.#take(this.#targets.change({ report: (error) => this.#calls.report(error) }));
+    }
+  }
+
+  #take({ added, removed }: Exchange): void {
+    if (this.#state === "stopped" || added.length + removed.length === 0) return;
+    this.#presence.watch(added, removed);
+    for (const target of removed) {
+      this.#intents.leave(target);
+      for (const hand of this.#hands.values()) {
+        if (hand.isOver(target)) hand.moveOver((hand.over ?? []).filter((other) => other !== target));
+      }
+    }
+    this.#prediction?.forget(removed);
+  }
+
+  /** What holds for targets may have changed. */
+  #outdate(): void {
+    this.#prediction?.relist();
+    this.#presence.outdate();
+    this.#intents.review();
+  }
 }

@@ -1,0 +1,49 @@
+/**
+ * Calls what the page gave, and keeps what that throws away from the rest of the page.
+ *
+ * @module
+ */
+import type { Platform } from "./platform.js";
+
+export class Calls {
+  readonly #platform: Platform;
+  readonly #onError: () => ((error: unknown) => void) | undefined;
+  /** What has been reported as an uncaught error. */
+  readonly #reported = new Set<string>();
+
+  constructor(platform: Platform, onError: () => ((error: unknown) => void) | undefined) {
+    this.#platform = platform;
+    this.#onError = onError;
+  }
+
+  /** Calls back; what is thrown is reported. */
+  call<A>(callback: ((argument: A) => unknown) | undefined, argument: A): unknown {
+    try {
+      return callback?.(argument);
+    } catch (error) {
+      this.report(error);
+      return undefined;
+    }
+  }
+
+  /** Gives an error to `onError`; where there is none, or it throws itself, the error is uncaught, once. */
+  report(error: unknown): void {
+    const onError = this.#onError();
+    if (!onError) {
+      this.#uncaught(error);
+      return;
+    }
+    try {
+      onError(error);
+    } catch (another) {
+      this.#uncaught(another);
+    }
+  }
+
+  #uncaught(error: unknown): void {
+    const text = String(error);
+    if (this.#reported.has(text)) return;
+    this.#reported.add(text);
+    this.#platform.report(error);
+  }
+}

@@ -1,0 +1,246 @@
+/**
+ * When a target is taken to be meant, and when no longer. A target becomes meant by one of the reasons; it stays so as long as
+ * one sign of it holds, whichever it began with; a press on it ends it for good.
+ *
+ * @module
+ */
+import type { Hand, Scope } from "./hand.js";
+import type { Settings } from "./options.js";
+import type { Platform, Stop } from "./platform.js";
+import { idOf, isDisabled, type Target } from "./targets.js";
+import type { Intent, Reason, Release } from "./types.js";
+
+/** Milliseconds for which a finger has to be on a target. */
+const TOUCH = 80;
+
+const MINUTE = 60_000;
+
+/** Marks the elements that are meant, for a page's styles. */
+const PREDICTED = "data-predicted";
+
+interface Open {
+  readonly intent: Intent;
+  readonly controller: AbortController;
+  /** Until the promise of `onIntent` is fulfilled. */
+  running: boolean;
+  readonly scope: Scope;
+}
+
+export interface IntentSinks {
+  begun(intent: Intent, target: Target): unknown;
+  ended(release: Release): void;
+  failed(error: unknown): void;
+}
+
+export class Intents {
+  readonly #platform: Platform;
+  readonly #settings: () => Settings;
+  readonly #sinks: IntentSinks;
+  readonly #hands: () => Iterable<Hand>;
+  readonly #open = new Map<Target, Open>();
+  readonly #begun: number[] = [];
+  readonly #candidates = new Map<Hand, { readonly target: Target; readonly since: number }>();
+  readonly #waiting = new Map<unknown, Stop>();
+  /** The focus, and what is at most so many tab stops away from it. */
+  #focus: Scope = { spent: new Set() };
+  #focused = new Set<Target>();
+  readonly #viewport: Scope = { spent: new Set() };
+
+  constructor(platform: Platform, settings: () => Settings, hands: () => Iterable<Hand>, sinks: IntentSinks) {
+    this.#platform = platform;
+    this.#settings = settings;
+    this.#hands = hands;
+    this.#sinks = sinks;
+  }
+
+  /** The targets that are meant now. */
+  get targets(): Target[] {
+    return [...this.#open.keys()];
+  }
+
+  /** A posterior was computed: takes the most probable target that can be pointed at. Gives whether another look is needed soon. */
+  consider(hand: Hand, best: Target | null): boolean {
+    const {
+      reasons: { pointer },
+      threshold,
+    } = this.#settings();
+    const movement = hand.predicted?.movement;
+    const sure = best && movement && pointer !== null && hand.probability(best) >= (best.settings.threshold ?? threshold);
+    if (!sure || movement.isLeaving(best)) {
+      this.#candidates.delete(hand);
+      return false;
+    }
+    const now = this.#platform.now();
+    let candidate = this.#candidates.get(hand);
+    if (candidate?.target !== best) this.#candidates.set(hand, (candidate = { target: best, since: now }));
+    if (now - candidate.since < pointer) return true;
+    this.#begin(best, "pointer", movement, hand);
+    return false;
+  }
+
+  /** What a pointer is over has changed, by its own movement or by scrolling. */
+  over(hand: Hand, by: "hover" | "scroll"): void {
+    const { hover, scroll } = this.#settings().reasons;
+    const target = hand.over?.[0];
+    this.#cancel(hand);
+    if (!target || hand.isTouch || hover === null || (by === "scroll" && !scroll)) return;
+    this.#wait(hand, hover, () => {
+      if (hand.over?.[0] === target) this.#begin(target, by, hand.scope, hand);
+    });
+  }
+
+  /** A finger was put on a target. */
+  touch(hand: Hand, target: Target): void {
+    if (!this.#settings().reasons.touch) return;
+    this.#wait(hand, TOUCH, () => {
+      if (hand.isOver(target)) this.#begin(target, "touch", hand.scope, hand);
+    });
+  }
+
+  /** A pointer pressed targets, the innermost first, or nothing that is watched. */
+  press(hand: Hand, targets: readonly Target[]): void {
+    this.forget(hand);
+    const [target] = targets;
+    if (target && this.#settings().reasons.press) this.#begin(target, "press", hand.scope, hand);
+    for (const each of targets) this.#end(each, true);
+  }
+
+  /** The focus moved: `target` has it, `ahead` are at most so many tab stops away. */
+  focus(target: Target | null, ahead: readonly Target[]): void {
+    this.#focus = { spent: new Set() };
+    this.#focused = new Set(ahead);
+    if (target) {
+      this.#focused.add(target);
+      if (this.#settings().reasons.focus) this.#begin(target, "focus", this.#focus);
+    }
+    for (const each of ahead) this.#begin(each, "keyboard", this.#focus);
+    this.review();
+  }
+
+  /** A target appeared on the screen or disappeared from it. */
+  visible(target: Target): void {
+    const { viewport } = this.#settings().reasons;
+    this.#cancel(target);
+    if (target.visible && viewport !== null) {
+      this.#wait(target, viewport, () => this.#begin(target, "viewport", this.#viewport));
+    }
+  }
+
+  /** Ends what has no sign left. */
+  review(): void {
+    for (const [target, { intent }] of this.#open) if (!this.#holds(target, intent.reason)) this.#end(target, false);
+  }
+
+  /** Ends an intent of a target that is gone. */
+  leave(target: Target): void {
+    this.#cancel(target);
+    this.#focused.delete(target);
+    this.#viewport.spent.delete(target);
+    this.#end(target, false);
+  }
+
+  /** A pointer is gone, or its movement. */
+  forget(hand: Hand): void {
+    this.#cancel(hand);
+    this.#candidates.delete(hand);
+  }
+
+  /** Takes the marks off elements. */
+  unmark(): void {
+    for (const { element } of this.targets) element?.removeAttribute(PREDICTED);
+  }
+
+  /** Ends everything. */
+  clear(): void {
+    for (const stop of this.#waiting.values()) stop();
+    this.#waiting.clear();
+    this.#candidates.clear();
+    for (const target of this.targets) this.#end(target, false);
+  }
+
+  #holds(target: Target, reason: Reason): boolean {
+    const { release } = this.#settings();
+    if (target.settings.enabled === false) return false;
+    if (reason === "viewport" && target.visible) return true;
+    if (this.#focused.has(target)) return true;
+    for (const hand of this.#hands()) {
+      if (hand.isOver(target)) return true;
+      if (hand.probability(target) >= release && !hand.predicted?.movement?.isLeaving(target)) return true;
+    }
+    return false;
+  }
+
+  #begin(target: Target, reason: Reason, scope: Scope, hand?: Hand): void {
+    const { reactivate, limit } = this.#settings();
+    const now = this.#platform.now();
+    if (this.#open.has(target) || target.settings.enabled === false) return;
+    if (target.element && isDisabled(target.element)) return;
+    if (reactivate === null ? scope.spent.has(target) : now - target.meant < reactivate) return;
+    while (this.#begun[0] !== undefined && now - this.#begun[0] >= MINUTE) this.#begun.shift();
+    if (this.#begun.length >= limit.perMinute || [...this.#open.values()].filter((each) => each.running).length >= limit.running)
+      return;
+    this.#begun.push(now);
+    scope.spent.add(target);
+    target.meant = now;
+    if (reason !== "press") hand?.predicted?.movement?.meant.push({ target, time: now });
+    const controller = new AbortController();
+    const { node, settings } = target;
+    const intent: Intent = {
+      target: node,
+      reason,
+      probability: hand?.probability(target) ?? 0,
+      remaining: (hand?.moving && hand.predicted?.remaining) || null,
+      signal: controller.signal,
+      id: idOf(target),
+      name: settings.name,
+      data: settings.data,
+    };
+    if (this.#settings().decorate) target.element?.setAttribute(PREDICTED, "true");
+    dispatch(this.#settings(), target, "intent", intent);
+    const open: Open = { intent, controller, running: true, scope };
+    this.#open.set(target, open);
+    const done = () => {
+      open.running = false;
+    };
+    Promise.resolve(this.#sinks.begun(intent, target)).then(done, (error: unknown) => {
+      done();
+      if ((error as Error | null)?.name !== "AbortError") this.#sinks.failed(error);
+    });
+  }
+
+  #end(target: Target, pressed: boolean): void {
+    const open = this.#open.get(target);
+    if (!open) return;
+    this.#open.delete(target);
+    // what a rest had ended that turns out to be none may be meant once more
+    if ("rested" in open.scope && open.scope.rested) open.scope.spent.delete(target);
+    if (!pressed) {
+      open.running = false;
+      open.controller.abort();
+    }
+    target.element?.removeAttribute(PREDICTED);
+    const release = { ...open.intent, pressed };
+    dispatch(this.#settings(), target, "release", release);
+    this.#sinks.ended(release);
+  }
+
+  #wait(key: unknown, milliseconds: number, run: () => void): void {
+    this.#waiting.set(
+      key,
+      this.#platform.wait(milliseconds, () => {
+        this.#waiting.delete(key);
+        run();
+      }),
+    );
+  }
+
+  #cancel(key: unknown): void {
+    this.#waiting.get(key)?.();
+    this.#waiting.delete(key);
+  }
+}
+
+/** Dispatches `whither:intent` or `whither:release` on an element, out of shadow trees too. */
+function dispatch({ decorate }: Settings, { element }: Target, type: "intent" | "release", detail: Intent): void {
+  if (decorate) element?.dispatchEvent(new CustomEvent(`whither:${type}`, { bubbles: true, composed: true, detail }));
+}

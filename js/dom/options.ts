@@ -1,0 +1,207 @@
+/**
+ * Reads the options: unknown ones and wrong values are errors, what is left out gets its default.
+ *
+ * @module
+ */
+import { fields, isAbsent, notNegative, number, refuse, text } from "../core/read.js";
+import type { TargetOptions, WatchOptions, WatchTarget } from "./types.js";
+
+/** How much larger a box is than its element: top, right, bottom, left. */
+export type Slop = readonly [number, number, number, number];
+
+/** What holds for a target: what is absent is as in the watcher's options. */
+export interface TargetSettings extends Omit<TargetOptions, "hitSlop"> {
+  readonly hitSlop?: Slop;
+}
+
+/** Milliseconds after which a sign counts; null: never. */
+type After = number | null;
+
+/** Options with their defaults. */
+export interface Settings
+  extends Pick<
+    WatchOptions,
+    "constants" | "predictor" | "signal" | "onIntent" | "onRelease" | "onPrediction" | "onOutcome" | "onError"
+  > {
+  readonly root: ParentNode & Node;
+  readonly threshold: number;
+  readonly release: number;
+  readonly none: number;
+  readonly rest: number;
+  readonly target: TargetSettings | ((target: WatchTarget) => TargetOptions | null | undefined);
+  readonly reasons: {
+    readonly pointer: After;
+    readonly hover: After;
+    readonly viewport: After;
+    readonly press: boolean;
+    readonly focus: boolean;
+    readonly touch: boolean;
+    readonly scroll: boolean;
+    /** Tab stops. */
+    readonly keyboard: After;
+  };
+  /** Milliseconds; null: in another movement. */
+  readonly reactivate: After;
+  readonly limit: { readonly running: number; readonly perMinute: number };
+  readonly pointers: readonly string[];
+  readonly raw: boolean;
+  readonly load: "eager" | "idle" | "pointer";
+  readonly decorate: boolean;
+  /** How many presses the priors are worth; null: nothing is learnt. */
+  readonly learning: After;
+  readonly record: boolean;
+}
+
+type Read = (value: unknown, path: string) => unknown;
+
+/** Of each key how it is read, and its default. */
+type Table = Readonly<Record<string, readonly [read: Read, otherwise?: unknown]>>;
+
+const LOADS: readonly unknown[] = ["eager", "idle", "pointer"];
+
+/** How many presses the priors of targets are worth. */
+const STRENGTH = 5;
+
+function within(must: string, legal: (x: number) => boolean): Read {
+  return (value, path) => {
+    const x = number(value, path);
+    return legal(x) ? x : refuse("out-of-range", path, must, x);
+  };
+}
+
+function is(type: string): Read {
+  return (value, path) => (typeof value === type ? value : refuse("wrong-type", path, `must be a ${type}`, value));
+}
+
+/** An object that has a method. */
+function has(method: string, name: string): Read {
+  return (value, path) =>
+    typeof (value as Record<string, unknown>)[method] === "function"
+      ? value
+      : refuse("wrong-type", path, `must be ${name}`, value);
+}
+
+/** `{ [key]: number }`; `true` stands for `yes`, `false` for never. */
+function amount(key: string, yes: number): Read {
+  return (value, path) => {
+    if (typeof value === "boolean") return value ? yes : null;
+    return notNegative(fields(value, path, [key])[key], `${path}.${key}`);
+  };
+}
+
+function read(given: unknown, table: Table, path: string, name = path): never {
+  const from = isAbsent(given) ? {} : fields(given, path, Object.keys(table), name);
+  const settings: Record<string, unknown> = {};
+  for (const [key, [readValue, otherwise]] of Object.entries(table)) {
+    const value = isAbsent(from[key]) ? otherwise : readValue(from[key], path ? `${path}.${key}` : key);
+    // what is not stated must not hide what is
+    if (value !== undefined) settings[key] = value;
+  }
+  return settings as never;
+}
+
+const flag = is("boolean");
+const callback = is("function");
+const share = within("must be greater than 0 and at most 1", (x) => x > 0 && x <= 1);
+
+const SIDES = ["top", "right", "bottom", "left"] as const;
+
+const TARGET: Table = {
+  id: [text],
+  name: [is("string")],
+  data: [(value) => value],
+  prior: [notNegative],
+  threshold: [share],
+  hitSlop: [
+    (value, path) => {
+      if (typeof value !== "object") return Array(4).fill(notNegative(value, path));
+      const slop: Record<string, number> = read(value, Object.fromEntries(SIDES.map((side) => [side, [notNegative, 0]])), path);
+      return SIDES.map((side) => slop[side]);
+    },
+  ],
+  enabled: [flag],
+  onIntent: [callback],
+};
+
+const REASONS: Table = {
+  pointer: [amount("after", 0), 0],
+  hover: [amount("after", 130), 130],
+  viewport: [amount("after", 0), null],
+  keyboard: [amount("tabs", 1), null],
+  press: [flag, true],
+  focus: [flag, true],
+  touch: [flag, true],
+  scroll: [flag, true],
+};
+
+const LIMIT: Table = { running: [notNegative, Infinity], perMinute: [notNegative, Infinity] };
+
+const OPTIONS: Table = {
+  root: [has("querySelectorAll", "a document, an element or a shadow root")],
+  threshold: [share, 0.8],
+  release: [share],
+  none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.05],
+  rest: [notNegative, 300],
+  target: [(value, path) => (typeof value === "function" ? value : readTarget(value, path)), {}],
+  reasons: [(value, path) => read(value, REASONS, path), read({}, REASONS, "")],
+  reactivate: [
+    (value, path) =>
+      value === "movement"
+        ? null
+        : value === "never"
+          ? Infinity
+          : typeof value === "number"
+            ? notNegative(value, path)
+            : refuse("wrong-type", path, 'must be "never", "movement" or milliseconds', value),
+    null,
+  ],
+  limit: [(value, path) => read(value, LIMIT, path), read({}, LIMIT, "")],
+  pointers: [
+    (value, path) =>
+      Array.isArray(value)
+        ? value.map((type, i) => text(type, `${path}[${i}]`))
+        : refuse("wrong-type", path, "must be a list of types of pointers", value),
+    ["mouse", "pen", "touch"],
+  ],
+  raw: [flag, false],
+  load: [
+    (value, path) => (LOADS.includes(value) ? value : refuse("out-of-range", path, `must be one of ${LOADS.join(", ")}`, value)),
+    "pointer",
+  ],
+  decorate: [flag, true],
+  constants: [is("object")],
+  predictor: [callback],
+  learning: [
+    (value, path) =>
+      typeof value === "boolean" ? (value ? STRENGTH : null) : within("must be greater than 0", (x) => x > 0)(value, path),
+    null,
+  ],
+  record: [flag, false],
+  signal: [has("throwIfAborted", "an AbortSignal")],
+  onIntent: [callback],
+  onRelease: [callback],
+  onPrediction: [callback],
+  onOutcome: [callback],
+  onError: [callback],
+};
+
+/**
+ * Reads what holds for one target.
+ *
+ * @throws {@link WhitherError} with the path of the key.
+ */
+export function readTarget(given: unknown, path: string): TargetSettings {
+  return read(given, TARGET, path);
+}
+
+/**
+ * Reads all options.
+ *
+ * @throws {@link WhitherError} `unknown-key`, `wrong-type`, `out-of-range`, `not-finite` with the path of the key.
+ */
+export function readOptions(given: unknown): Settings {
+  const settings: Settings = read(given, OPTIONS, "", "options");
+  const { threshold, release = 0.625 * threshold, root = document as ParentNode & Node } = settings;
+  if (release > threshold) refuse("out-of-range", "release", `must be at most the threshold, ${threshold}`, release);
+  return { ...settings, release, root };
+}

@@ -1,0 +1,135 @@
+/**
+ * The browser as the other files of this folder need it. It is injected, so that each of them is tested without a browser; the
+ * one made here does without what a browser, or jsdom, does not have.
+ *
+ * @module
+ */
+import type { FindTabStops } from "./focus.js";
+import type { Prediction } from "./prediction/prediction.js";
+import type { Surface } from "./prediction/surface.js";
+import type { MakePredictor } from "./types.js";
+
+/** Ends what was begun. */
+export type Stop = () => void;
+
+/** A watcher of elements that a browser calls back about. */
+export interface Observer {
+  observe(node: Node): void;
+  unobserve(node: Node): void;
+  stop(): void;
+}
+
+/** What is loaded when a pointer moves. */
+export interface Loaded {
+  readonly Prediction: typeof Prediction;
+  readonly surface: Surface;
+  readonly core: MakePredictor;
+}
+
+export interface Platform {
+  /** The window whose viewport and clock everything is counted in. */
+  readonly window: Window;
+  /** Milliseconds on the events' clock. */
+  now(): number;
+  /** The next animation frame. */
+  frame(run: () => void): Stop;
+  /** After so many milliseconds. */
+  wait(milliseconds: number, run: () => void): Stop;
+  /** When the page has nothing else to do. */
+  idle(run: () => void): Stop;
+  /** Passive, in the capture phase. */
+  listen(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop;
+  /** Calls back with elements that appear on the screen or disappear from it, by scrolling and clipping too; null where there is none. */
+  visibility(changed: (element: Element, visible: boolean) => void): Observer | null;
+  /** Calls back when something changes in the trees of the nodes. */
+  mutations(changed: (records: readonly MutationRecord[]) => void): Observer | null;
+  /** The part that predicts, and the core unless there is another model. */
+  load(own: MakePredictor | undefined): Promise<Loaded>;
+  /** The library that finds the order of tab stops. */
+  loadTabStops(): Promise<FindTabStops>;
+  /** As an uncaught error would be. */
+  report(error: unknown): void;
+}
+
+/** The host of a shadow tree, or the element that frames a document; null for the outermost, and where it may not be known. */
+export function hostOf(root: Node): Element | null {
+  return (root as ShadowRoot).host ?? attempt(() => (root as Document).defaultView?.frameElement) ?? null;
+}
+
+/** The browser, or null on a server. */
+export function browser(): Platform | null {
+  if (typeof document === "undefined" || typeof window === "undefined") return null;
+  const main = window;
+  const framed = typeof requestAnimationFrame === "function";
+  const wait = (milliseconds: number, run: () => void): Stop => {
+    const timer = setTimeout(run, milliseconds);
+    return () => clearTimeout(timer);
+  };
+  return {
+    window: main,
+    now: () => performance.now(),
+    frame(run) {
+      if (!framed) return wait(16, run);
+      const frame = requestAnimationFrame(run);
+      return () => cancelAnimationFrame(frame);
+    },
+    wait,
+    idle(run) {
+      if (typeof requestIdleCallback !== "function") return wait(200, run);
+      const idle = requestIdleCallback(run, { timeout: 2000 });
+      return () => cancelIdleCallback(idle);
+    },
+    listen(target, types, listener) {
+      const options = { passive: true, capture: true };
+      for (const type of types) target.addEventListener(type, listener as EventListener, options);
+      return () => {
+        for (const type of types) target.removeEventListener(type, listener as EventListener, options);
+      };
+    },
+    visibility(changed) {
+      if (typeof IntersectionObserver !== "function") return null;
+      const observer = new IntersectionObserver((entries) => {
+        for (const { target, isIntersecting } of entries) changed(target, isIntersecting);
+      });
+      return {
+        observe: (node) => observer.observe(node as Element),
+        unobserve: (node) => observer.unobserve(node as Element),
+        stop: () => observer.disconnect(),
+      };
+    },
+    mutations(changed) {
+      if (typeof MutationObserver !== "function") return null;
+      const observer = new MutationObserver(changed);
+      return {
+        observe: (node) => observer.observe(node, { subtree: true, childList: true, attributes: true, attributeOldValue: true }),
+        unobserve() {},
+        stop: () => observer.disconnect(),
+      };
+    },
+    async load(own) {
+      const [{ Prediction, surface }, core] = await Promise.all([import("#prediction"), own ?? loadCore()]);
+      return { Prediction, surface: surface(), core };
+    },
+    async loadTabStops() {
+      return (await import("#tabbable")).tabbable;
+    },
+    report(error) {
+      if (typeof reportError === "function") reportError(error);
+      else console.error(error);
+    },
+  };
+}
+
+async function loadCore(): Promise<MakePredictor> {
+  const { init, PointerPredictor } = await import("#pointing");
+  await init();
+  return (targets, options) => new PointerPredictor(targets, options);
+}
+
+export function attempt<T>(run: () => T): T | null {
+  try {
+    return run();
+  } catch {
+    return null;
+  }
+}

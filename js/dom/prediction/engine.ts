@@ -1,0 +1,142 @@
+/**
+ * One predictor for each pointer.
+ *
+ * @module
+ */
+import type { Settings } from "../options.js";
+import type { Target } from "../targets.js";
+import type { MakePredictor, PredictedTarget, Predictor } from "../types.js";
+import type { Movement } from "./movements.js";
+
+export class Engine {
+  readonly #settings: () => Settings;
+  readonly #core: MakePredictor;
+  /** Of pointers that are gone, for those that come. */
+  readonly #idle: Predictor[] = [];
+  #generation = 0;
+  #list: readonly PredictedTarget[] = [];
+  #listed: readonly Target[] | null = null;
+
+  /** `core` makes predictors where the options do not. */
+  constructor(settings: () => Settings, core: MakePredictor) {
+    this.#settings = settings;
+    this.#core = core;
+  }
+
+  /** Counts how often the options that predictors are made with have changed. */
+  get generation(): number {
+    return this.#generation;
+  }
+
+  /** Other constants, another model: what follows is predicted by new predictors. */
+  renew(): void {
+    this.#generation++;
+    for (const predictor of this.#idle.splice(0)) predictor.free();
+  }
+
+  /** A predictor with these targets. */
+  borrow(targets: readonly PredictedTarget[]): Predictor {
+    const { none, constants, predictor } = this.#settings();
+    const idle = this.#idle.pop();
+    idle?.setTargets(targets);
+    return idle ?? (predictor ?? this.#core)(targets, { none, constants });
+  }
+
+  /** Takes back a predictor that was made in a generation. */
+  giveBack(predictor: Predictor, generation: number): void {
+    if (generation === this.#generation && this.#idle.length === 0) this.#idle.push(predictor);
+    else predictor.free();
+  }
+
+  /**
+   * What a predictor is given for these targets. With `learning`, so many presses are worth what the options have as priors, and
+   * `presses` counts those of a target: `p(i) = (learning a_i + n_i) / (learning + sum n)` with `a_i` the shares of the priors.
+   */
+  list(active: readonly Target[], learning: number | null, presses: (target: Target) => number): readonly PredictedTarget[] {
+    if (active === this.#listed) return this.#list;
+    this.#listed = active;
+    const stated = active.map(({ settings }) => settings.prior ?? 1);
+    const total = stated.reduce((sum, prior) => sum + prior, 0);
+    this.#list = active.map((target, i) => {
+      const { x, y, width, height } = target.box as NonNullable<Target["box"]>;
+      const share = stated[i] as number;
+      const prior = learning === null ? share : (learning * share) / total + presses(target);
+      return { id: target.key, x: x + width / 2, y: y + height / 2, width, height, prior };
+    });
+    return this.#list;
+  }
+
+  /** Priors may have changed. */
+  relist(): void {
+    this.#listed = null;
+  }
+}
+
+/** The posterior of one pointer's movements. */
+export class PointerPosterior {
+  readonly #engine: Engine;
+  #predictor: Predictor | null = null;
+  #generation = 0;
+  #movement: Movement | null = null;
+  #observed = 0;
+  #targets: readonly PredictedTarget[] | null = null;
+  #places = new Map<Target, number>();
+  /** When the pointer was last observed, in seconds. */
+  last = 0;
+  /** In the order of {@link targets}. */
+  probabilities = new Float64Array(0);
+  targets: readonly Target[] = [];
+  none = 1;
+
+  constructor(engine: Engine) {
+    this.#engine = engine;
+  }
+
+  get predictor(): Predictor | null {
+    return this.#predictor;
+  }
+
+  /** Observes what is new of a movement, and computes the posterior. */
+  compute(movement: Movement, active: readonly Target[], list: readonly PredictedTarget[]): void {
+    if (this.#predictor && this.#generation !== this.#engine.generation) this.free();
+    if (!this.#predictor) {
+      this.#predictor = this.#engine.borrow(list);
+      this.#generation = this.#engine.generation;
+      this.#movement = null;
+    } else if (this.#targets !== list) this.#predictor.setTargets(list);
+    this.#targets = list;
+    const predictor = this.#predictor;
+    if (this.#movement !== movement) {
+      predictor.reset();
+      this.#movement = movement;
+      this.#observed = 0;
+    }
+    for (const { time, x, y } of movement.after(this.#observed)) predictor.observe((this.last = time), [x, y]);
+    this.#observed = movement.count;
+    if (this.targets !== active) {
+      this.targets = active;
+      this.#places = new Map(active.map((target, i) => [target, i]));
+      this.probabilities = new Float64Array(active.length);
+    }
+    predictor.probabilities(this.probabilities);
+    this.none = predictor.none;
+  }
+
+  probability(target: Target): number {
+    const place = this.#places.get(target);
+    return place === undefined ? 0 : (this.probabilities[place] as number);
+  }
+
+  /** The most probable target. */
+  best(): Target | null {
+    const { probabilities } = this;
+    let best = 0;
+    for (let i = 1; i < probabilities.length; i++) if ((probabilities[i] as number) > (probabilities[best] as number)) best = i;
+    return this.targets[best] ?? null;
+  }
+
+  free(): void {
+    if (this.#predictor) this.#engine.giveBack(this.#predictor, this.#generation);
+    this.#predictor = null;
+  }
+}

@@ -1,0 +1,238 @@
+/**
+ * What is watched: the elements of a live selector, elements and virtual targets that were given, and what holds for each.
+ *
+ * @module
+ */
+import { WhitherError } from "#error";
+import { number, refuse, text } from "../core/read.js";
+import { readTarget, type Settings, type TargetSettings } from "./options.js";
+import { hostOf } from "./platform.js";
+import type { Bounds, WatchTarget, WatchTargets } from "./types.js";
+
+/** One target, with what the other files of this folder know of it. */
+export interface Target {
+  readonly node: WatchTarget;
+  /** Null for a virtual one. */
+  readonly element: Element | null;
+  /** What a predictor calls it: unlike ids of users, never the same as another one's. */
+  readonly key: string;
+  settings: TargetSettings;
+  /** Presence: whether it is on the screen. */
+  visible: boolean;
+  /** Layout: whether it can be pointed at by styles and attributes; where; whether it is covered, and when that was found out. */
+  usable: boolean;
+  box: Bounds | null;
+  covered: boolean;
+  checked: number;
+  /** Intent: when it was last taken to be meant (milliseconds). */
+  meant: number;
+}
+
+/** What came and what went. */
+export interface Exchange {
+  readonly added: readonly Target[];
+  readonly removed: readonly Target[];
+}
+
+/** What may be changed at once. */
+interface Change {
+  readonly settings?: Settings;
+  readonly given?: ReadonlySet<WatchTarget>;
+  readonly own?: ReadonlyMap<WatchTarget, TargetSettings>;
+  /** What was removed before, and is not any more. */
+  readonly readmitted?: readonly WatchTarget[];
+  /** With it an error is one target's alone. */
+  readonly report?: (error: unknown) => void;
+}
+
+export class Targets {
+  readonly #selector: string | null;
+  /** What was removed of a selector's elements. */
+  readonly #removed = new Set<unknown>();
+  #settings: Settings;
+  #given: ReadonlySet<WatchTarget>;
+  #own: ReadonlyMap<WatchTarget, TargetSettings> = new Map();
+  #byNode = new Map<unknown, Target>();
+  /** Those that no path of an event has. */
+  #pathless: Target[] = [];
+  #count = 0;
+  /** Whether the document may have other elements by now. */
+  stale = false;
+
+  /**
+   * @throws {@link WhitherError} at `targets`, or where the options of one of them are wrong.
+   */
+  constructor(targets: WatchTargets, settings: Settings) {
+    this.#settings = settings;
+    this.#selector = typeof targets === "string" ? targets : null;
+    this.#given = new Set(typeof targets === "string" ? [] : readNodes(targets));
+    this.change({});
+  }
+
+  get all(): IterableIterator<Target> {
+    return this.#byNode.values();
+  }
+
+  /** The target that is this node, or undefined. */
+  find(node: unknown): Target | undefined {
+    return this.#byNode.get(node);
+  }
+
+  /** The nodes whose trees have to be observed for changes: every root that a target or the selector is in. */
+  roots(): Set<Node> {
+    const roots = new Set<Node>();
+    const elements = [...this.#given].filter(isElement);
+    for (const node of this.#selector === null ? elements : [this.#settings.root, ...elements]) {
+      for (let at: Node | null = node; at; ) {
+        const root: Node = at.getRootNode();
+        if (roots.has(root)) break;
+        roots.add(root);
+        at = hostOf(root);
+      }
+    }
+    return roots;
+  }
+
+  /** The targets at a place, the innermost first: elements by the path of an event, virtual ones and those in closed trees by their box. */
+  at(path: readonly EventTarget[], place: { readonly x: number; readonly y: number }): Target[] {
+    const found = path.flatMap((node) => this.find(node) ?? []);
+    for (const target of this.#pathless) {
+      const host = target.element && hostOf(target.element.getRootNode());
+      if (target.box && isInside(place, target.box) && (!host || path.includes(host))) found.unshift(target);
+    }
+    return found.filter(({ settings }) => settings.enabled !== false);
+  }
+
+  /** Watches more. */
+  add(nodes: readonly WatchTarget[]): Exchange {
+    const added = readNodes(nodes);
+    return this.change({ given: new Set([...this.#given, ...added]), readmitted: added });
+  }
+
+  /** Watches these no longer. */
+  remove(nodes: readonly WatchTarget[]): Exchange {
+    for (const node of nodes) this.#removed.add(node);
+    return this.change({ given: new Set([...this.#given].filter((node) => !nodes.includes(node))) });
+  }
+
+  /** Sets what holds for one target; null for what the options have. */
+  set(node: WatchTarget, options: unknown): void {
+    if (!this.find(node)) throw new WhitherError("unknown-id", "target", "it is not watched");
+    const own = new Map(this.#own);
+    if (options === null) own.delete(node);
+    else own.set(node, readTarget(options, "options"));
+    this.change({ own });
+  }
+
+  /**
+   * Finds a live selector's elements again, in the order of the document, and takes in what is to be changed: nothing is where one of
+   * the new values is wrong.
+   */
+  change({ settings = this.#settings, given = this.#given, own = this.#own, readmitted = [], report }: Change): Exchange {
+    const found = this.#selector === null ? [] : query(settings.root, this.#selector);
+    const next = new Map<unknown, Target>();
+    const resolved = new Map<Target, TargetSettings>();
+    const ids = new Set<string>();
+    const added: Target[] = [];
+    for (const node of new Set([...found, ...given])) {
+      if (this.#removed.has(node) && !readmitted.includes(node)) continue;
+      if (isElement(node) && isIgnored(node)) continue;
+      let target = this.find(node);
+      if (!target) added.push((target = this.#make(node)));
+      next.set(node, target);
+      try {
+        const known = settings === this.#settings && own === this.#own && !added.includes(target);
+        const one = known ? target.settings : settingsOf(node, settings, own.get(node));
+        resolved.set(target, one);
+        if (one.id === undefined) continue;
+        if (ids.has(one.id)) {
+          throw new WhitherError("duplicate-id", "target.id", `the id ${JSON.stringify(one.id)} is taken by another target`);
+        }
+        ids.add(one.id);
+      } catch (error) {
+        if (!report) throw error;
+        report(error);
+      }
+    }
+    const removed = [...this.all].filter(({ node }) => !next.has(node));
+    for (const [target, one] of resolved) target.settings = one;
+    for (const node of readmitted) this.#removed.delete(node);
+    [this.#byNode, this.#settings, this.#given, this.#own] = [next, settings, given, own];
+    this.#pathless = [...this.all].filter(({ element }) => !element || (element.getRootNode() as ShadowRoot).mode === "closed");
+    this.stale = false;
+    return { added, removed };
+  }
+
+  #make(node: WatchTarget): Target {
+    return {
+      node,
+      element: isElement(node) ? node : null,
+      key: String(this.#count++),
+      settings: {},
+      visible: false,
+      usable: true,
+      box: null,
+      covered: false,
+      checked: -Infinity,
+      meant: -Infinity,
+    };
+  }
+}
+
+/** What its own options call it, else its `id`. */
+export function idOf({ settings, node }: Target): string | undefined {
+  return settings.id ?? (node.id || undefined);
+}
+
+export function isDisabled(element: Element): boolean {
+  return element.matches(":disabled, [aria-disabled=true]");
+}
+
+/** Where a virtual target is. */
+export function readBounds(bounds: Bounds, path: string): Bounds {
+  for (const side of ["x", "y", "width", "height"] as const) number(bounds?.[side], `${path}.${side}`);
+  return bounds;
+}
+
+function settingsOf(node: WatchTarget, { target }: Settings, own: TargetSettings | undefined): TargetSettings {
+  const given = typeof target === "function" ? readTarget(target(node), "target") : target;
+  return { ...(isElement(node) ? null : { id: node.id }), ...given, ...own };
+}
+
+function isElement(node: WatchTarget): node is Element {
+  return (node as Element).nodeType === 1;
+}
+
+/** Whether it is in a subtree that the page takes out. */
+function isIgnored(element: Element): boolean {
+  const host = hostOf(element.getRootNode());
+  return element.closest("[data-whither-ignore]") !== null || (host !== null && isIgnored(host));
+}
+
+function isInside({ x, y }: { readonly x: number; readonly y: number }, box: Bounds): boolean {
+  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+}
+
+function query(root: ParentNode, selector: string): Element[] {
+  try {
+    return Array.from(root.querySelectorAll(selector));
+  } catch (cause) {
+    const message = `must be a selector, got ${JSON.stringify(selector)}`;
+    throw new WhitherError("out-of-range", "targets", message, { cause });
+  }
+}
+
+/** The elements and virtual targets that a user gave. */
+function readNodes(given: Exclude<WatchTargets, string>): WatchTarget[] {
+  const many = typeof given === "object" && given !== null && Symbol.iterator in given;
+  return many ? Array.from(given, (node, i) => readNode(node, `targets[${i}]`)) : [readNode(given, "targets")];
+}
+
+function readNode(node: WatchTarget, path: string): WatchTarget {
+  if (typeof node !== "object" || node === null) refuse("wrong-type", path, "must be an element or a virtual target", node);
+  if (isElement(node)) return node;
+  text(node.id, `${path}.id`);
+  if (typeof node.bounds !== "function") refuse("wrong-type", `${path}.bounds`, "must be a function", node.bounds);
+  readBounds(node.bounds(), `${path}.bounds()`);
+  return node;
+}
