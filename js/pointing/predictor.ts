@@ -59,7 +59,8 @@ export class PointerPredictor {
   #last = 0;
 
   /**
-   * @param targets - What may be pointed at, by centre and size in px. They are copied: changing them later changes nothing.
+   * @param targets - What may be pointed at, by centre and size in px; none at all is legal. They are copied: changing them later
+   * changes nothing.
    * @param options - What to do otherwise.
    * @throws {@link WhitherError} with the path of the field; `not-initialised` before `init()`.
    */
@@ -134,15 +135,15 @@ export class PointerPredictor {
     return copyInto(this.#probabilities(), into);
   }
 
-  /** The probability that the pointer goes to none of the targets: 0 unless the options have a `none`. */
+  /** The probability that the pointer goes to none of the targets: 0 unless the options have a `none`, 1 without any target. */
   get none(): number {
     return this.#live().none();
   }
 
-  /** The most probable target, or null before the first observation. */
+  /** The most probable target, or null before the first observation and without any target. */
   get best(): Best | null {
     const probabilities = this.#probabilities();
-    if (this.#first === null) return null;
+    if (this.#first === null || probabilities.length === 0) return null;
     let index = 0;
     for (let i = 1; i < probabilities.length; i++) {
       if ((probabilities[i] as number) > (probabilities[index] as number)) index = i;
@@ -150,7 +151,7 @@ export class PointerPredictor {
     return { id: this.#targets.ids[index] as string, index, probability: probabilities[index] as number };
   }
 
-  /** How long it takes until the pointer enters its target; null before the second observation. */
+  /** How long it takes until the pointer enters its target; null before the second observation and without any target. */
   get remaining(): Remaining | null {
     const [mean, low, high] = this.#ready(64).remaining() as unknown as [number?, number?, number?];
     return mean === undefined || low === undefined || high === undefined ? null : { mean, low, high };
@@ -160,7 +161,7 @@ export class PointerPredictor {
    * The state at a later time, given that the pointer goes to one of the targets and stays there: `x`, `y` and the velocity.
    *
    * @param time - Seconds on the clock of the observations, at least the last observation's.
-   * @returns null before the first observation.
+   * @returns null before the first observation and without any target.
    * @throws {@link WhitherError} `out-of-range`, `not-finite`.
    */
   forecast(time: number): Gaussian | null {
@@ -182,7 +183,7 @@ export class PointerPredictor {
     const numbers = Array.from(list(times, "times"), (time, i) => number(time, `times[${i}]`));
     const place = this.#targets.places.get(name);
     if (place === undefined) {
-      const message = `no target ${quotedSome([name])}, there are ${quotedSome(this.#targets.ids)}`;
+      const message = `no target ${quotedSome([name])}, there are ${quotedSome(this.#targets.ids) || "none"}`;
       throw new WhitherError("unknown-id", "id", message);
     }
     const later = Float64Array.from(numbers, (time, i) => this.#later(time, `times[${i}]`));
@@ -191,7 +192,8 @@ export class PointerPredictor {
 
   /**
    * Sets all targets at once, in the middle of a movement too: for icons that move and lists that scroll. Nothing accumulates for
-   * a target, so what is known of the movement stays.
+   * a target, so what was observed stays, without any target too: those that are set later have the probabilities that they would
+   * have, had they been there from the start.
    *
    * @throws {@link WhitherError} as the constructor does.
    */

@@ -48,7 +48,6 @@ class Sizes {
 export function readTargets(given: unknown, before?: Targets): Targets {
   const items = list(given, "targets");
   const count = items.length;
-  if (count === 0) throw new WhitherError("no-destinations", "targets", "must have at least one target, has none");
   if (count > MOST_ITEMS)
     throw new WhitherError("too-large", "targets", `must have no more than ${MOST_ITEMS} items, has ${count}`);
   const ids: string[] = [];
@@ -70,7 +69,7 @@ export function readTargets(given: unknown, before?: Targets): Targets {
     ids.push(id);
   }
   const places = before && same ? before.places : placesOf(ids);
-  if (!(total > 0)) {
+  if (count > 0 && !(total > 0)) {
     throw new WhitherError("out-of-range", "targets", `the priors must have a finite sum above 0, it is ${total}`);
   }
   return { ids, places, sides: Float64Array.from(sizes.sides), numbers };

@@ -87,6 +87,11 @@ impl PointerEngine {
         if !std::mem::take(&mut self.stale) {
             return;
         }
+        if self.targets.len() == 0 {
+            self.probabilities.clear();
+            self.none = 1.0;
+            return;
+        }
         self.none = self.prior_none;
         match &mut self.movement {
             Some(movement) => self.none = movement.posterior(self.prior_none, &mut self.probabilities),
@@ -115,17 +120,19 @@ impl PointerEngine {
         self.none
     }
 
-    /// The time to the entry into the target: median, low, high; empty before the second observation.
+    /// The time to the entry into the target: median, low, high; empty before the second observation and without targets.
     pub fn remaining(&mut self) -> Vec<f64> {
         self.refresh();
-        let Some(movement) = self.movement.as_deref().filter(|movement| movement.course().observations > 1) else {
+        let can_enter = |movement: &&Pointing<Plane>| movement.course().observations > 1 && self.targets.len() > 0;
+        let Some(movement) = self.movement.as_deref().filter(can_enter) else {
             return Vec::new();
         };
         let time = movement.entry_time(&self.shares(movement, None));
         time.map_or(Vec::new(), |numbers| numbers.to_vec())
     }
 
-    /// The state some seconds after the latest observation, mean and covariance; empty before the first observation.
+    /// The state some seconds after the latest observation, mean and covariance; empty before the first observation and
+    /// without targets.
     pub fn forecast(&mut self, later: f64) -> Vec<f64> {
         self.refresh();
         let Some(movement) = self.movement.as_deref() else { return Vec::new() };

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { init, pointerScenario, Predictor } from "whither";
 import * as pointing from "whither/pointing";
-import { close, golden, same } from "./support.mjs";
+import { close, golden, refuses, same } from "./support.mjs";
 
 await Promise.all([init(), pointing.init()]);
 
@@ -215,4 +215,71 @@ test("none is that of the options, else that of the constants", () => {
   const target = { id: "only", x: 10, y: 10, width: 9, height: 9 };
   const noneOf = (options) => new pointing.PointerPredictor([target], options).none;
   assert.deepEqual([{}, { constants: { none: 0.1 } }, { none: 0.2, constants: { none: 0.1 } }].map(noneOf), [0, 0.1, 0.2]);
+});
+
+test("without any target it goes on observing: those that come later are as if they had been there from the start", () => {
+  for (const seed of [17, 18, 19]) {
+    const draw = draws(seed);
+    const targets = targetsOf(draw, 30, 4, true);
+    const always = new PointerPredictor(targets, { none: 0.1 });
+    // empty from the start, emptied in mid-movement, and with others before
+    const late = new PointerPredictor([], { none: 0.1 });
+    const emptied = new PointerPredictor(targets, { none: 0.1 });
+    const replaced = new PointerPredictor(targetsOf(draw, 7, 2), { none: 0.1 });
+    const all = [late, emptied, replaced];
+    for (let round = 0; round < 2; round++) {
+      const movement = movementOf(draw, 50);
+      movement.forEach(([time, position], k) => {
+        if (k === 10) for (const pointer of all) pointer.setTargets([]);
+        for (const pointer of [always, ...all]) pointer.observe(time, position);
+        // each at the beginning, in mid-movement and at its end
+        if ([0, 1, 11, 30].includes(k) || k === movement.length - 1) {
+          for (const pointer of all) {
+            const copy = pointer.clone();
+            copy.setTargets(targets);
+            const what = `seed ${seed}, round ${round}, observation ${k}`;
+            same([...copy.probabilities(), copy.none], [...always.probabilities(), always.none], what);
+            assert.deepEqual([copy.best, copy.remaining], [always.best, always.remaining], what);
+            same(numbers(copy.forecast(time + 0.1)), numbers(always.forecast(time + 0.1)), what);
+            copy.free();
+          }
+        }
+      });
+      for (const pointer of [always, ...all]) pointer.reset();
+    }
+    for (const pointer of [always, ...all]) pointer.free();
+  }
+});
+
+test("without any target nothing is probable but none of them", () => {
+  const target = { id: "only", x: 10, y: 10, width: 9, height: 9 };
+  const empty = new PointerPredictor([]);
+  const emptied = new PointerPredictor([target], { none: 0.05 });
+  const isResting = (pointer, time) => {
+    assert.deepEqual([pointer.probabilities(), pointer.none, pointer.best], [new Float64Array(0), 1, null]);
+    assert.deepEqual([pointer.remaining, pointer.forecast(time + 1)], [null, null]);
+    const into = new Float64Array(0);
+    assert.equal(pointer.probabilities(into), into);
+    refuses(() => pointer.probabilities(new Float64Array(1)), "wrong-length", "into", "must have 0 numbers, has 1");
+    refuses(() => pointer.path("only", [time]), "unknown-id", "id", 'no target "only", there are none');
+  };
+  isResting(empty, 0);
+  for (let k = 0; k < 5; k++) {
+    for (const pointer of [empty, emptied]) pointer.observe(k / 60, [100 * k, 100]);
+    if (k === 2) emptied.setTargets([]);
+    isResting(empty, k / 60);
+    if (k >= 2) isResting(emptied, k / 60);
+  }
+  assert.equal(new PointerPredictor([], { none: 0.3 }).none, 1);
+  emptied.reset();
+  isResting(emptied, 0);
+  emptied.setTargets([target]);
+  assert.deepEqual([emptied.none, emptied.best], [0.05, null]);
+  refuses(
+    () => empty.setTargets([{ ...target, prior: 0 }]),
+    "out-of-range",
+    "targets",
+    "the priors must have a finite sum above 0, it is 0",
+  );
+  isResting(empty, 1);
 });
