@@ -119,14 +119,21 @@ export interface Snapshot<T extends WatchTarget = WatchTarget> {
 
 /** A model of pointing in place of `PointerPredictor` of `whither/pointing`, whose methods it has. */
 export interface Predictor {
+  /** Takes in a position in px, at a time in seconds that is at least the last one's. */
   observe(time: number, position: readonly [number, number]): void;
+  /** One for each target, in their order, written into an array of as many where one is given; they sum to `1 - none`. */
   probabilities(into?: Float64Array): Float64Array;
   readonly none: number;
   readonly remaining: Remaining | null;
+  /** Position and velocity at a later time. */
   forecast(time: number): Gaussian | null;
+  /** The expected positions at later times on the way to one target: `x, y, x, y, ...`. */
   path(id: string, times: readonly number[]): Float64Array;
+  /** Other targets, or none at all, in mid-movement too. */
   setTargets(targets: readonly PredictedTarget[]): void;
+  /** Begins a new movement. */
   reset(): void;
+  /** Gives back what it holds; it is not used again. */
   free(): void;
 }
 
@@ -228,6 +235,7 @@ export interface Watcher<T extends WatchTarget = WatchTarget> {
   update(options: WatchOptions<T>): void;
   /** Ends movements and aborts what runs; nothing is followed until {@link resume}. */
   pause(): void;
+  /** Follows again what {@link pause} stopped following. */
   resume(): void;
   /** Stops for good: nothing is left on the page. */
   stop(): void;
@@ -235,5 +243,6 @@ export interface Watcher<T extends WatchTarget = WatchTarget> {
   subscribe(listener: () => void): () => void;
   /** What was computed last: for stores such as React's `useSyncExternalStore`. */
   getSnapshot(): Snapshot<T>;
+  /** As {@link stop}, at the end of a `using` declaration's block. */
   [Symbol.dispose](): void;
 }
