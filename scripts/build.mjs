@@ -13,12 +13,13 @@ const bundles = [
   { entries: ["index", "slim", "workerd"], module: "whither" },
   { entries: ["pointing"], module: "pointing" },
   { entries: ["pointing-workerd"], module: "pointing" },
+  { entries: ["dom"], module: "pointing" },
   { entries: ["study"], module: "study" },
   { entries: ["study-workerd"], module: "study" },
 ];
 
 /** For resolvers that do not read `exports`: files next to package.json, where they look for `whither/slim` and the others. */
-const stubs = ["slim", "pointing", "study"];
+const stubs = ["slim", "pointing", "dom", "study"];
 
 /**
  * The syntax: what README promises (Chrome and Edge 94, Firefox 113, Safari 16.4, Node 20.19), and no static blocks, which Metro
@@ -57,7 +58,10 @@ export async function build({ dev = false } = {}) {
   });
 }
 
-/** A file for each entry, `shared.js` for what those of `whither` share (one instance), and `error.js` (one class) for all. */
+/**
+ * A file for each entry, `shared.js` for what those of `whither` share (one instance), `error.js` (one class) for all, and
+ * `tabbable.js`, another's library, which `dom.js` loads when it needs it, with its licence.
+ */
 async function bundle() {
   const esbuild = await import("esbuild");
   const options = {
@@ -75,6 +79,7 @@ async function bundle() {
     ...syntax,
   };
   await esbuild.build({ ...options, entryPoints: ["js/core/error.ts"] });
+  await esbuild.build({ ...options, entryPoints: { tabbable: "tabbable" }, legalComments: "inline", sourcemap: false });
   for (const { entries, module } of bundles) {
     await esbuild.build({
       ...options,
@@ -87,7 +92,10 @@ async function bundle() {
   }
 }
 
-/** Where the names with a `#` lead in an entry with this module of WebAssembly: to its generated code, and to files of their own. */
+/**
+ * Where the names with a `#` lead in an entry with this module of WebAssembly: to its generated code, and to files of their own,
+ * of which `#pointing` and `#tabbable` are loaded by `import()`, so that bundlers make a chunk of each.
+ */
 function aliases(module) {
   const { bytes } = modules.find(({ name }) => name === module);
   const file = (name) => ({ path: `./${name}`, external: true, sideEffects: false });
@@ -96,6 +104,8 @@ function aliases(module) {
     "#bytes": file(`${bytes}.js`),
     "#module": file(`${module}.wasm`),
     "#error": file("error.js"),
+    "#pointing": file("pointing.js"),
+    "#tabbable": file("tabbable.js"),
   };
 }
 
@@ -103,7 +113,7 @@ function aliases(module) {
 async function declare() {
   const { rollup } = await import("rollup");
   const { dts } = await import("rollup-plugin-dts");
-  const input = Object.fromEntries(["index", "slim", "pointing", "study"].map((name) => [name, `js/entries/${name}.ts`]));
+  const input = Object.fromEntries(["index", "slim", "pointing", "dom", "study"].map((name) => [name, `js/entries/${name}.ts`]));
   const bundle = await rollup({ input, plugins: [dts({ tsconfig: join(root, "tsconfig.json") })] });
   await bundle.write({
     dir: join(dist, "types"),

@@ -1,4 +1,4 @@
-// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js package browser` runs the parts that are named.
+// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js dom package browser` runs the parts that are named.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
@@ -37,6 +37,11 @@ const parts = {
   async js() {
     await build();
     await tests("node", nodeTests("tests/js"));
+  },
+  async dom() {
+    await ensureChromium();
+    await build();
+    await tests("node", nodeTests("tests/dom"));
   },
   async package() {
     await ensureChromium();

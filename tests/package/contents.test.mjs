@@ -9,8 +9,8 @@ import { capture, root } from "../../scripts/run.mjs";
 import { sizes } from "../../scripts/size.mjs";
 import { project } from "./support.mjs";
 
-/** The most gzipped bytes of an entry, WebAssembly and JavaScript. */
-const heaviest = { whither: 175_000, "whither/pointing": 36_000 };
+/** The most gzipped bytes of an entry, WebAssembly and JavaScript; of `whither/dom` without the core, which it loads later. */
+const heaviest = { whither: 175_000, "whither/pointing": 36_000, "whither/dom": 8_000 };
 
 test("the package", async (t) => {
   const { folder, files } = await project(t);
@@ -34,6 +34,8 @@ test("the package", async (t) => {
       "LICENSE-MIT",
       "README.md",
       "dist/bytes.js",
+      "dist/dom.js",
+      "dist/dom.js.map",
       "dist/error.js",
       "dist/error.js.map",
       "dist/index.js",
@@ -56,12 +58,16 @@ test("the package", async (t) => {
       "dist/study.js.map",
       "dist/study.wasm",
       "dist/study.wasm.d.ts",
+      "dist/tabbable.js",
+      "dist/types/dom.d.ts",
       "dist/types/index.d.ts",
       "dist/types/pointing.d.ts",
       "dist/types/shared.d.ts",
       "dist/types/shared2.d.ts",
       "dist/types/shared3.d.ts",
       "dist/types/shared4.d.ts",
+      "dist/types/shared5.d.ts",
+      "dist/types/shared6.d.ts",
       "dist/types/slim.d.ts",
       "dist/types/study.d.ts",
       "dist/whither.wasm",
@@ -69,6 +75,8 @@ test("the package", async (t) => {
       "dist/workerd.js",
       "dist/workerd.js.map",
       "docs/demo.webp",
+      "dom.d.ts",
+      "dom.js",
       "package.json",
       "pointing.d.ts",
       "pointing.js",
@@ -116,17 +124,28 @@ test("the package", async (t) => {
   }
 
   await t.test("names no address of the WebAssembly, of which bundlers would make a second copy", () => {
-    for (const name of ["index", "shared", "slim", "pointing", "study", "workerd", "pointing-workerd", "study-workerd"]) {
+    const names = ["index", "shared", "slim", "pointing", "dom", "study", "workerd", "pointing-workerd", "study-workerd"];
+    for (const name of names) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /import\.meta\.url|whither_bg\.wasm|pointing_bg\.wasm/);
     }
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd"]) {
+    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);
     assert.ok(!exported(read("dist/whither.wasm")).includes("fit"));
+  });
+
+  await t.test("has what whither/dom loads later in files of their own, and none of it inside", () => {
+    const text = read("dist/dom.js").toString();
+    const later = [...text.matchAll(/\bimport\("([^"]+)"\)/g)].map(([, path]) => path);
+    assert.deepEqual([...new Set(later)].sort(), ["./pointing.js", "./tabbable.js"]);
+    const now = [...text.matchAll(/\bfrom\s*"([^"]+)"/g)].map(([, path]) => path);
+    assert.deepEqual([...new Set(now)], ["./error.js"]);
+    assert.doesNotMatch(text, /extends Error|WebAssembly\./);
+    assert.match(read("dist/tabbable.js").toString(), /^\/\*!\s*\* tabbable [\d.]+\s*\* @license MIT/);
   });
 
   await t.test("is within its budget", (t) => {

@@ -76,7 +76,7 @@ test("in Node", async (t) => {
       // what Node's own loader reads of the global object while it loads
       await import("./nothing.mjs");
       const node = touched.splice(0);
-      for (const entry of ["whither", "whither/slim", "whither/pointing", "whither/study"]) await import(entry);
+      for (const entry of ["whither", "whither/slim", "whither/pointing", "whither/dom", "whither/study"]) await import(entry);
       for (const [name, descriptor] of present) if (descriptor.configurable) Object.defineProperty(globalThis, name, descriptor);
       console.log(JSON.stringify({ watched: present.size, touched: touched.filter((name) => !node.includes(name)) }));`;
     write(folder, "nothing.mjs", "export {};");

@@ -25,7 +25,7 @@ test("the package's names", async (t) => {
 
   await t.test("are typed for every resolver of TypeScript (attw)", async () => {
     const { entrypoints, problems } = await checkPackage(createPackageFromTarballData(readFileSync(tarball)));
-    const names = [".", "./slim", "./pointing", "./study", "./whither.wasm", "./pointing.wasm", "./package.json"];
+    const names = [".", "./slim", "./pointing", "./dom", "./study", "./whither.wasm", "./pointing.wasm", "./package.json"];
     assert.deepEqual(Object.keys(entrypoints), names);
     assert.deepEqual(
       problems.filter((problem) => !unavoidable(problem)),
@@ -43,7 +43,8 @@ test("the package's names", async (t) => {
 
   await t.test("are found without exports, and all that they name predicts", async () => {
     const text = `import { init, Predictor, pointerScenario } from "whither";
-      import * as slim from "whither/slim"; import * as pointing from "whither/pointing"; import { fit } from "whither/study";
+      import * as slim from "whither/slim"; import * as pointing from "whither/pointing"; import { watch } from "whither/dom";
+      import { fit } from "whither/study";
       const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
       const best = ({ Predictor, pointerScenario, PointerPredictor }) => {
         const predictor = PointerPredictor ? new PointerPredictor(icons) : new Predictor(pointerScenario(icons));
@@ -53,6 +54,7 @@ test("the package's names", async (t) => {
       window.outcome = Promise.all([init(), pointing.init()]).then(async () => [
         ...[{ Predictor, pointerScenario }, slim, pointing].map(best),
         await fit([], {}).catch(({ code }) => code),
+        await watch("a", { load: "eager" }).ready.then(() => "watched"),
       ]);`;
     write(folder, "main.js", text);
     write(folder, "site/index.html", page('<script type="module" src="./main.js"></script>'));
@@ -68,6 +70,6 @@ test("the package's names", async (t) => {
     assert.ok(!result.hasErrors(), result.toString());
     const browser = await launch();
     t.after(() => browser.close());
-    assert.deepEqual(await inBrowser(browser, join(folder, "site")), ["900", "900", "900", "out-of-range"]);
+    assert.deepEqual(await inBrowser(browser, join(folder, "site")), ["900", "900", "900", "out-of-range", "watched"]);
   });
 });

@@ -72,6 +72,57 @@ new Predictor({ ...scenario, motion: { type: "constantSpeed", dimensions: 2, noi
 new Predictor(scenario).observe("0", [1, 2]);
 `;
 
+/** A page's program: for users who have the DOM. */
+const onPage = `
+import { watch, WhitherError, type Intent, type Snapshot, type VirtualTarget, type Watcher, type WatchOptions } from "whither/dom";
+import { PointerPredictor } from "whither/pointing";
+import type { Track } from "whither/study";
+
+const options: WatchOptions<HTMLAnchorElement> = {
+  threshold: 0.85,
+  target: (link) => ({ id: link.id, prior: 2, hitSlop: { top: 4 }, data: { href: link.href } }),
+  reasons: { pointer: { after: 50 }, hover: false, keyboard: { tabs: 2 } },
+  limit: { running: 3 },
+  load: "idle",
+  onIntent: async ({ target, signal, reason, probability, remaining }) => {
+    const response = await fetch(target.href, { signal });
+    return \`\${reason} \${probability} \${remaining?.mean} \${response.status}\`;
+  },
+  onRelease: ({ target, pressed }) => target.classList.toggle("is-pressed", pressed),
+  onPrediction: ({ best }) => console.log(best?.target.href),
+  onError: (error) => { if (error instanceof WhitherError) console.warn(error.code, error.path); },
+};
+const links: Watcher<HTMLAnchorElement> = watch<HTMLAnchorElement>("nav a", options);
+const best: HTMLAnchorElement | undefined = links.best?.target;
+links.update({ threshold: undefined, none: 0.1 });
+links.set(links.targets[0]!, { enabled: false });
+const snapshot: Snapshot<HTMLAnchorElement> = links.getSnapshot();
+const unsubscribe: () => void = links.subscribe(() => console.log(snapshot.intended, best));
+const x: number | undefined = links.forecast(0.1)?.mean[0];
+export const lines: string[] = links.ledger.lines();
+export const tracks: Track[] = lines.map((line) => JSON.parse(line));
+links.stop();
+unsubscribe();
+
+// an element's own type is Element where nothing else is stated
+watch("button", { onIntent: ({ target }) => target.setAttribute("data-intended", "") });
+watch(document.querySelectorAll("li"), { root: document.body });
+const shape: VirtualTarget = { id: "shape", bounds: () => new DOMRect(1, 2, x, 4) };
+watch<Element | VirtualTarget>([shape, document.body], {
+  onIntent: (intent: Intent<Element | VirtualTarget>) => ("bounds" in intent.target ? intent.target.bounds() : intent.id),
+});
+watch<VirtualTarget>(shape, {
+  predictor: (targets, { none, constants }) => new PointerPredictor(targets, { none, constants }),
+  signal: AbortSignal.abort(),
+});
+// @ts-expect-error: there is no such option
+watch("a", { treshold: 0.8 });
+// @ts-expect-error: there is no such reason
+watch("a", { reasons: { gaze: true } });
+// @ts-expect-error: a virtual target has its bounds
+watch({ id: "shape" });
+`;
+
 /** The WebAssembly, as an import of it gives it. */
 const imported = (entry) => `
 import compiledModule from "${entry}";
@@ -104,6 +155,11 @@ test("the declarations compile", async (t) => {
       // "preserve" is younger than it
       if (compiler === "typescript-floor" && options.module === "preserve") continue;
       await t.test(`for ${name}, by ${by}`, () => compiles({ "use.ts": program }, options, compiler));
+      if (options.lib.includes("DOM")) {
+        // what `querySelectorAll` returns is iterable
+        const lib = [...options.lib, "DOM.Iterable"];
+        await t.test(`for ${name}, by ${by}, on a page`, () => compiles({ "page.ts": onPage }, { ...options, lib }, compiler));
+      }
       await t.test(`for ${name}, by ${by}, with the WebAssembly by import`, async () => {
         const where = options.moduleResolution === "node10" ? "whither/dist" : "whither";
         const modules = ["whither.wasm", "pointing.wasm"].map((file) => [`${file}.ts`, imported(`${where}/${file}`)]);
