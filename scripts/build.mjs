@@ -13,7 +13,6 @@ const bundles = [
   { entries: ["index", "slim", "workerd"], module: "whither" },
   { entries: ["pointing"], module: "pointing" },
   { entries: ["pointing-workerd"], module: "pointing" },
-  { entries: ["dom"], module: "pointing" },
   { entries: ["study"], module: "study" },
   { entries: ["study-workerd"], module: "study" },
 ];
@@ -60,7 +59,7 @@ export async function build({ dev = false } = {}) {
 
 /**
  * A file for each entry, `shared.js` for what those of `whither` share (one instance), `error.js` (one class) for all, and
- * `tabbable.js`, another's library, which `dom.js` loads when it needs it, with its licence.
+ * for `dom.js` the two that it loads later: `prediction.js`, and `tabbable.js`, another's library, with its licence.
  */
 async function bundle() {
   const esbuild = await import("esbuild");
@@ -80,6 +79,9 @@ async function bundle() {
   };
   await esbuild.build({ ...options, entryPoints: ["js/core/error.ts"] });
   await esbuild.build({ ...options, entryPoints: { tabbable: "tabbable" }, legalComments: "inline", sourcemap: false });
+  const plugins = (module) => [
+    { name: "aliases", setup: ({ onResolve }) => onResolve({ filter: /^#/ }, ({ path }) => aliases(module)[path]) },
+  ];
   for (const { entries, module } of bundles) {
     await esbuild.build({
       ...options,
@@ -87,14 +89,17 @@ async function bundle() {
       splitting: entries.length > 1,
       chunkNames: "shared",
       define: { WASM_FILE: JSON.stringify(`${module}.wasm`) },
-      plugins: [{ name: "aliases", setup: ({ onResolve }) => onResolve({ filter: /^#/ }, ({ path }) => aliases(module)[path]) }],
+      plugins: plugins(module),
     });
   }
+  // Every page waits for these: a fifth of them would be names and line breaks.
+  const entryPoints = { dom: "js/entries/dom.ts", prediction: "js/dom/prediction/prediction.ts" };
+  await esbuild.build({ ...options, entryPoints, minify: true, lineLimit: 0, plugins: plugins("pointing") });
 }
 
 /**
  * Where the names with a `#` lead in an entry with this module of WebAssembly: to its generated code, and to files of their own,
- * of which `#pointing` and `#tabbable` are loaded by `import()`, so that bundlers make a chunk of each.
+ * of which `#pointing`, `#prediction` and `#tabbable` are loaded by `import()`, so that bundlers make a chunk of each.
  */
 function aliases(module) {
   const { bytes } = modules.find(({ name }) => name === module);
@@ -105,6 +110,7 @@ function aliases(module) {
     "#module": file(`${module}.wasm`),
     "#error": file("error.js"),
     "#pointing": file("pointing.js"),
+    "#prediction": file("prediction.js"),
     "#tabbable": file("tabbable.js"),
   };
 }

@@ -49,6 +49,8 @@ test("the package", async (t) => {
       "dist/pointing.wasm.d.ts",
       "dist/shared.js",
       "dist/shared.js.map",
+      "dist/prediction.js",
+      "dist/prediction.js.map",
       "dist/slim.js",
       "dist/slim.js.map",
       "dist/study-bytes.js",
@@ -124,14 +126,25 @@ test("the package", async (t) => {
   }
 
   await t.test("names no address of the WebAssembly, of which bundlers would make a second copy", () => {
-    const names = ["index", "shared", "slim", "pointing", "dom", "study", "workerd", "pointing-workerd", "study-workerd"];
+    const names = [
+      "index",
+      "shared",
+      "slim",
+      "pointing",
+      "dom",
+      "prediction",
+      "study",
+      "workerd",
+      "pointing-workerd",
+      "study-workerd",
+    ];
     for (const name of names) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /import\.meta\.url|whither_bg\.wasm|pointing_bg\.wasm/);
     }
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom"]) {
+    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);
@@ -141,7 +154,7 @@ test("the package", async (t) => {
   await t.test("has what whither/dom loads later in files of their own, and none of it inside", () => {
     const text = read("dist/dom.js").toString();
     const later = [...text.matchAll(/\bimport\("([^"]+)"\)/g)].map(([, path]) => path);
-    assert.deepEqual([...new Set(later)].sort(), ["./pointing.js", "./tabbable.js"]);
+    assert.deepEqual([...new Set(later)].sort(), ["./pointing.js", "./prediction.js", "./tabbable.js"]);
     const now = [...text.matchAll(/\bfrom\s*"([^"]+)"/g)].map(([, path]) => path);
     assert.deepEqual([...new Set(now)], ["./error.js"]);
     assert.doesNotMatch(text, /extends Error|WebAssembly\./);
