@@ -204,18 +204,17 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#listeners.clear();
   }
 
-  subscribe(listener: () => void): () => void {
+  // these two are passed around on their own, as stores are
+  readonly subscribe = (listener: () => void): (() => void) => {
     if (typeof listener !== "function") refuse("wrong-type", "listener", "must be a function", listener);
     const own = () => listener();
     this.#listeners.add(own);
     return () => {
       this.#listeners.delete(own);
     };
-  }
+  };
 
-  getSnapshot(): Snapshot {
-    return this.#snapshot;
-  }
+  readonly getSnapshot = (): Snapshot => this.#snapshot;
 
   [dispose](): void {
     this.stop();
