@@ -8,16 +8,18 @@ import * as esbuild from "esbuild";
 import { launch } from "../../scripts/chromium.mjs";
 import { capture, root } from "../../scripts/run.mjs";
 import { serve } from "../../scripts/serve.mjs";
+import { movement } from "../browser/hand.mjs";
+import { mouse, nextFrame, REST } from "../browser/support.mjs";
 import { project, strict, write } from "./support.mjs";
 
 const readme = readFileSync(join(root, "README.md"), "utf8");
 const blocks = (language) => [...readme.matchAll(new RegExp(`^\`\`\`${language}\n(.*?)^\`\`\``, "gms"))].map(([, code]) => code);
-const [onAPage, inNode, projecting, learning, ...rest] = blocks("js");
+const [watching, onAPage, inNode, projecting, learning, ...rest] = blocks("js");
 
 test("the README's code", async (t) => {
   const { folder, tarball } = await project(t);
 
-  await t.test("there are four programs", () => assert.deepEqual([learning !== undefined, rest.length], [true, 0]));
+  await t.test("there are five programs", () => assert.deepEqual([learning !== undefined, rest.length], [true, 0]));
 
   await t.test("names the file that is installed until the package is on npm", () => {
     const [commands] = blocks("sh");
@@ -37,9 +39,10 @@ test("the README's code", async (t) => {
   };
   for (const [name, more] of Object.entries(projects)) {
     await t.test(`on a page compiles as it is pasted into a strict TypeScript project, ${name}`, async () => {
+      write(folder, "watching.ts", watching);
       write(folder, "pasted.ts", onAPage);
       const compilerOptions = { ...strict, target: "ES2022", module: "esnext", moduleResolution: "bundler", ...more };
-      write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["pasted.ts"] }));
+      write(folder, "tsconfig.json", JSON.stringify({ compilerOptions, files: ["watching.ts", "pasted.ts"] }));
       const { code, output } = await capture("node", [join(root, "node_modules/typescript/bin/tsc")], { cwd: folder });
       assert.equal(code, 0, output);
     });
@@ -72,8 +75,42 @@ test("the README's code", async (t) => {
     assert.equal(output.trim(), program.match(/println!.*; \/\/ (.*)/)[1]);
   });
 
+  await t.test("watches a page's elements: calls back before the mouse is there, and when it turns away", (t) =>
+    watches(t, folder),
+  );
+
   await t.test("on a page", () => onPages(folder));
 });
+
+async function watches(t, folder) {
+  const buttons = ["Radio", "Map"].map((name, i) => `<button style="left:${100 + 700 * i}px">${name}</button>`).join("");
+  const style = "button { position: fixed; top: 300px; width: 96px; height: 96px }";
+  const head = `<!doctype html><link rel="icon" href="data:,"><style>${style}</style>`;
+  write(folder, "watched/index.html", `${head}${buttons}<script type="module" src="watching.js"></script>`);
+  write(folder, "watching.js", watching);
+  const bundle = { bundle: true, splitting: true, format: "esm", outdir: "watched", logLevel: "warning" };
+  await esbuild.build({ absWorkingDir: folder, entryPoints: ["watching.js"], ...bundle });
+  const server = await serve(join(folder, "watched"));
+  const browser = await launch();
+  t.after(() => Promise.all([browser.close(), server.close()]));
+  const tab = await browser.newPage();
+  const logged = [];
+  tab.on("console", (message) => logged.push(message.text()));
+  tab.on("pageerror", (error) => logged.push(String(error)));
+  await tab.goto(server.url);
+  const hand = await mouse(tab);
+  const from = { x: 300, y: 600 };
+  const to = { x: 848, y: 348 };
+  await hand.play([[0, from.x, from.y]]);
+  await hand.rest(REST);
+  await hand.play(movement(from, to, 96, { seed: 2, share: 0.75 }));
+  await nextFrame(tab);
+  assert.equal(await tab.evaluate(() => document.querySelector("button:hover")), null);
+  assert.match(logged.join("\n"), /^Map 0\.\d+$/);
+  await hand.play(movement({ x: 760, y: 380 }, { x: 600, y: 60 }, 96, { seed: 3 }).slice(8));
+  await nextFrame(tab);
+  assert.match(logged.join("\n"), /^Map 0\.\d+\nnot Map$/);
+}
 
 /** Four icons in a row, and a hidden one. */
 const icons = [0, 1, 2, 3].map((i) => `<i data-icon id="icon${i}" style="left:${100 + 300 * i}px"></i>`).join("");
