@@ -27,18 +27,15 @@ export class Calls {
   }
 
   /** Gives an error to `onError`; where there is none, or it throws itself, the error is uncaught, once. */
-  report(error: unknown): void {
+  readonly report = (error: unknown): void => {
     const onError = this.#onError();
-    if (!onError) {
-      this.#uncaught(error);
-      return;
-    }
     try {
+      if (!onError) throw error;
       onError(error);
-    } catch (another) {
-      this.#uncaught(another);
+    } catch (uncaught) {
+      this.#uncaught(uncaught);
     }
-  }
+  };
 
   #uncaught(error: unknown): void {
     const text = String(error);

@@ -14,7 +14,7 @@ import { Intents } from "./intent.js";
 import { ledgerOf } from "./ledger.js";
 import { nowhere } from "./nowhere.js";
 import { readOptions, type Settings } from "./options.js";
-import { browser, type Platform, type Stop } from "./platform.js";
+import { browser, type Loaded, type Platform, type Stop } from "./platform.js";
 import { listenToPointers, type Place, type PointerId, type PointerSinks, type Sample } from "./pointers.js";
 import type { Prediction } from "./prediction/prediction.js";
 import { Presence } from "./presence.js";
@@ -66,14 +66,14 @@ class PageWatcher implements Watcher, PointerSinks {
   #given: WatchOptions;
   #settings: Settings;
   #prediction: Prediction | null = null;
-  #loading = false;
-  /** What is done once it is loaded. */
-  #kept: ((prediction: Prediction) => void)[] = [];
-  #resolve!: () => void;
-  #reject!: (error: unknown) => void;
+  /** Loads the part that predicts and the core, once. */
+  #load!: () => void;
+  /** What is done once they are loaded; null where they cannot be. */
+  #kept: ((prediction: Prediction) => void)[] | null = [];
   #snapshot: Snapshot = RESTING;
   #frame: Stop | null = null;
-  #ending: Stop | null = null;
+  /** What ends with other options. */
+  #stops: Stop[] = [];
   #state: "running" | "paused" | "stopped" = "running";
 
   constructor(platform: Platform, targets: WatchTargets, options: WatchOptions | undefined) {
@@ -81,12 +81,16 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#settings = readOptions(options);
     this.#given = { ...options };
     this.#targets = new Targets(targets, this.#settings);
-    this.ready = new Promise((resolve, reject) => {
-      this.#resolve = resolve;
-      this.#reject = reject;
-    });
+    this.ready = new Promise<void>((resolve) => {
+      this.#load = resolve;
+    })
+      .then(() => platform.load(this.#settings.predictor))
+      .then((loaded) => this.#predict(loaded));
     // nobody has to wait for it
-    this.ready.catch(() => {});
+    this.ready.catch((error: unknown) => {
+      this.#kept = null;
+      if (this.#state !== "stopped") this.#calls.report(error);
+    });
     const settings = () => this.#settings;
     this.#calls = new Calls(platform, () => this.#settings.onError);
     this.#intents = new Intents(platform, settings, () => this.#hands.values(), {
@@ -98,7 +102,7 @@ class PageWatcher implements Watcher, PointerSinks {
         this.#request();
         this.#calls.call(this.#settings.onRelease, release);
       },
-      failed: (error) => this.#calls.report(error),
+      failed: this.#calls.report,
     });
     this.#presence = new Presence(platform, this.#targets, {
       changed: () => this.#request(),
@@ -200,7 +204,7 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#rest();
     this.#presence.stop();
     this.#prediction?.free();
-    this.#ending?.();
+    this.#end();
     this.#listeners.clear();
   }
 
@@ -304,30 +308,27 @@ class PageWatcher implements Watcher, PointerSinks {
   /** Begins to follow pointers and the focus, or again with other options. */
   #begin(): void {
     const { signal, load } = this.#settings;
-    this.#ending?.();
-    this.#ending = null;
+    this.#end();
     if (signal?.aborted) {
       this.stop();
       return;
     }
-    if (signal) this.#ending = this.#platform.listen(signal, ["abort"], () => this.stop());
+    if (signal) this.#stops.push(this.#platform.listen(signal, ["abort"], () => this.stop()));
     this.#presence.listen();
     if (load === "eager") this.#load();
-    if (load === "idle") this.#platform.idle(() => this.#load());
+    if (load === "idle") this.#stops.push(this.#platform.idle(this.#load));
     for (const target of this.#targets.all) this.#intents.visible(target);
+  }
+
+  #end(): void {
+    for (const stop of this.#stops.splice(0)) stop();
   }
 
   #listen(view: Window): Stop {
     const { pointers, raw, reasons } = this.#settings;
     const stops = [
       listenToPointers(this.#platform, view, this, ({ pointerType }) => pointers.includes(pointerType), raw),
-      listenToFocus(
-        this.#platform,
-        view,
-        reasons.keyboard ?? 0,
-        (path, ahead) => this.#focused(path, ahead),
-        (error) => this.#calls.report(error),
-      ),
+      listenToFocus(this.#platform, view, reasons.keyboard ?? 0, (path, ahead) => this.#focused(path, ahead), this.#calls.report),
     ];
     return () => {
       for (const stop of stops) stop();
@@ -339,46 +340,33 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#presence.deafen();
     this.#frame?.();
     this.#frame = null;
-    this.#kept = [];
+    this.#kept?.splice(0);
     for (const hand of this.#hands.values()) this.#prediction?.drop(hand);
     this.#hands.clear();
     this.#intents.clear();
     this.#publish();
   }
 
-  /** Loads the part that predicts and the core, once. */
-  #load(): void {
-    if (this.#loading || this.#state !== "running") return;
-    this.#loading = true;
-    this.#platform.load(this.#settings.predictor).then(
-      ({ Prediction, core, surface }) => {
-        if (this.#state === "stopped") return;
-        const prediction = new Prediction(core, {
-          platform: this.#platform,
-          surface,
-          targets: this.#targets,
-          presence: this.#presence,
-          settings: () => this.#settings,
-          intents: this.#intents,
-          scrolled: (hand, path, place) => this.#over(hand, this.#targets.at(path, place), "scroll"),
-        });
-        this.#prediction = prediction;
-        for (const run of this.#kept.splice(0)) run(prediction);
-        this.#resolve();
-        this.#request();
-      },
-      (error: unknown) => {
-        this.#kept = [];
-        this.#reject(error);
-        if (this.#state !== "stopped") this.#calls.report(error);
-      },
-    );
+  #predict({ Prediction, core, surface }: Loaded): void {
+    if (this.#state === "stopped") return;
+    const prediction = new Prediction(core, {
+      platform: this.#platform,
+      surface,
+      targets: this.#targets,
+      presence: this.#presence,
+      settings: () => this.#settings,
+      intents: this.#intents,
+      scrolled: (hand, path, place) => this.#over(hand, this.#targets.at(path, place), "scroll"),
+    });
+    this.#prediction = prediction;
+    for (const run of this.#kept?.splice(0) ?? []) run(prediction);
+    this.#request();
   }
 
   /** Does something with the prediction, now or when it is loaded. */
   #predicting(run: (prediction: Prediction) => void): void {
     if (this.#prediction) run(this.#prediction);
-    else if (this.#loading && this.#kept.push(run) > MOST_KEPT) this.#kept.shift();
+    else if (this.#kept && this.#kept.push(run) > MOST_KEPT) this.#kept.shift();
   }
 
   /** Asks for a frame, if there is none yet. */
@@ -412,7 +400,7 @@ class PageWatcher implements Watcher, PointerSinks {
   /** Finds the elements of a live selector again, if there may be others. */
   #sync(): void {
     if (this.#targets.stale && this.#state !== "stopped") {
-      this.#take(this.#targets.change({ report: (error) => this.#calls.report(error) }));
+      this.#take(this.#targets.change({ report: this.#calls.report }));
     }
   }
 
