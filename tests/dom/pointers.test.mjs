@@ -186,6 +186,41 @@ describe("pointers", () => {
     });
   });
 
+  it("goes on from the page into an iframe, whose clock began later", async () => {
+    const inner = `<!doctype html><style>body { margin: 0 }</style>${buttons(["b", 340, 80])}`;
+    const { page, close } = await open(site, buttons(["a", 80, 80]), { pages: { "inner.html": inner } });
+    await page.evaluate(async () => {
+      const frame = document.createElement("iframe");
+      frame.style = "position:absolute;left:500px;top:0;width:480px;height:600px;border:0";
+      frame.src = "inner.html";
+      const loaded = new Promise((resolve) => frame.addEventListener("load", resolve));
+      document.body.append(frame);
+      await loaded;
+      const button = frame.contentDocument.querySelector("button");
+      window.watcher = record([document.querySelector("#a"), button], { record: true });
+      await watcher.ready;
+      await frames(3);
+    });
+    const hand = await mouse(page);
+    await hand.play([[0, AWAY.x, AWAY.y]]);
+    await hand.rest(REST);
+    await hand.play(movement(AWAY, MIDDLE.b, 60, { seed: 8 }));
+    assert.equal((await read(page)).best?.target, "b");
+    await hand.press(MIDDLE.b);
+    const lines = await page.evaluate(async () => {
+      await frames(2);
+      return watcher.ledger.lines();
+    });
+    assert.equal(lines.length, 1);
+    const { samples } = JSON.parse(lines[0]);
+    assert.ok(Math.hypot(samples[0][1] - AWAY.x, samples[0][2] - AWAY.y) < 30, `it begins at ${samples[0]}`);
+    for (const [index, [time, x]] of samples.slice(1).entries()) {
+      assert.ok(time >= samples[index][0] && time - samples[index][0] < 0.2, `${samples[index][0]}, ${time}`);
+      assert.ok(Math.abs(x - samples[index][1]) < 100, `${samples[index][1]}, ${x}`);
+    }
+    await close();
+  });
+
   it("follows two pointers at once, each by itself, and has the last one's that moved", async () => {
     const { page, close } = await open(site, CORNERS);
     const results = await page.evaluate(async (hand) => {
@@ -310,6 +345,22 @@ describe("pointers", () => {
       await page.waitForFunction(() => scrollY > 50);
       await page.evaluate(() => frames(3));
       assert.deepEqual([await logged(page, "intent"), await logged(page, "outcome")], [[], []]);
+      await close();
+    });
+
+    it("follows no raw updates of a finger that scrolls the page", async () => {
+      const { page, close } = await open(site, `${buttons(["a", 80, 100])}<div style="height: 3000px"></div>`, {
+        ...phone,
+        script: `window.watcher = record("button", { raw: true }); await watcher.ready;`,
+      });
+      const { down, move, up } = await finger(page);
+      await down(120, 630);
+      for (let step = 1; step <= 12; step += 1) {
+        await sleep(0.012);
+        await move(120, 630 - 15 * step);
+      }
+      assert.equal((await read(page)).moving, false);
+      await up();
       await close();
     });
 
