@@ -322,14 +322,12 @@ describe("intent", () => {
     });
 
     it("aborts what was intended beside the target that is pressed", async () => {
-      const { page, step, close } = await scripted(site, "{ threshold: 0.4, release: 0.1 }");
+      const { page, step, press, close } = await scripted(site, "{ threshold: 0.4, release: 0.1 }");
       await step({});
       await step({ c: 0.5, d: 0.3 });
       await step({ c: 0.3, d: 0.5 });
       assert.deepEqual(await page.evaluate(() => watcher.getSnapshot().intended.map(nameOf)), ["c", "d"]);
-      const hand = await mouse(page);
-      await hand.press({ x: 450, y: 350 });
-      await nextFrame(page);
+      await press({ x: 450, y: 350 });
       const aborted = Object.fromEntries((await logged(page, "intent")).map(({ target, aborted }) => [target, aborted]));
       assert.equal(aborted.d, null);
       assert.notEqual(aborted.c, null);

@@ -59,6 +59,15 @@ export async function scripted(site, options = "{}", body = ROW) {
     ...opened,
     /** Moves on by one event, after which the posterior is this: `{ c: 0.9 }`. */
     step: (posterior) => page.evaluate((posterior) => scriptedStep(posterior), posterior),
+    /** The same pointer presses. */
+    press: ({ x, y }) =>
+      page.evaluate(
+        async ([x, y]) => {
+          press(x, y);
+          await frames(2);
+        },
+        [x, y],
+      ),
     /** A new movement: the pointer rests, then begins again. */
     rest: async () => {
       await sleep(0.4);
@@ -128,6 +137,11 @@ function prepare() {
     const value = list && (() => list.map((each) => event("pointermove", each, init)));
     Object.defineProperty(made, "getCoalescedEvents", { value: value ?? undefined });
     (document.elementFromPoint(sample[1], sample[2]) ?? document.documentElement).dispatchEvent(made);
+  };
+
+  /** Presses and lifts at a place. */
+  window.press = (x, y, init) => {
+    for (const type of ["pointerdown", "pointerup"]) point(type, [performance.now(), x, y], init);
   };
 
   /** Dispatches a movement, `[seconds, x, y]` from a time in milliseconds, one event for each sample. */
