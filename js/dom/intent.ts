@@ -21,8 +21,6 @@ const PREDICTED = "data-predicted";
 interface Open {
   readonly intent: Intent;
   readonly controller: AbortController;
-  /** Until the promise of `onIntent` is fulfilled. */
-  running: boolean;
   readonly scope: Scope;
 }
 
@@ -39,7 +37,9 @@ export class Intents {
   readonly #hands: () => Iterable<Hand>;
   readonly #open = new Map<Target, Open>();
   readonly #begun: number[] = [];
-  readonly #candidates = new Map<Hand, { readonly target: Target; readonly since: number }>();
+  /** The targets that a pointer has been sure enough of, and since when. */
+  readonly #candidates = new Map<Hand, ReadonlyMap<Target, number>>();
+  readonly #running = new Set<Intent>();
   readonly #waiting = new Map<unknown, Stop>();
   /** The focus, and what is at most so many tab stops away from it. */
   #focus: Scope = { spent: new Set() };
@@ -58,24 +58,24 @@ export class Intents {
     return [...this.#open.keys()];
   }
 
-  /** A posterior was computed: takes the most probable target that can be pointed at. Gives whether another look is needed soon. */
-  consider(hand: Hand, best: Target | null): boolean {
-    const {
-      reasons: { pointer },
-      threshold,
-    } = this.#settings();
+  /** A posterior was computed, with so much for each target. */
+  consider(hand: Hand, targets: readonly Target[], probabilities: Float64Array): void {
+    const { reasons, threshold } = this.#settings();
     const movement = hand.predicted?.movement;
-    const sure = best && movement && pointer !== null && hand.probability(best) >= (best.settings.threshold ?? threshold);
-    if (!sure || movement.isLeaving(best)) {
-      this.#candidates.delete(hand);
-      return false;
-    }
+    const before = this.#candidates.get(hand);
+    const candidates = new Map<Target, number>();
+    this.#candidates.set(hand, candidates);
+    if (!movement || reasons.pointer === null) return;
+    // a finger may be about to scroll the page
+    const after = hand.isTouch ? Math.max(TOUCH, reasons.pointer) : reasons.pointer;
     const now = this.#platform.now();
-    let candidate = this.#candidates.get(hand);
-    if (candidate?.target !== best) this.#candidates.set(hand, (candidate = { target: best, since: now }));
-    if (now - candidate.since < pointer) return true;
-    this.#begin(best, "pointer", movement, hand);
-    return false;
+    for (let i = 0; i < targets.length; i++) {
+      const target = targets[i] as Target;
+      if ((probabilities[i] as number) < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
+      const since = before?.get(target) ?? now;
+      candidates.set(target, since);
+      if (now - since >= after) this.#begin(target, "pointer", movement, hand);
+    }
   }
 
   /** What a pointer is over has changed, by its own movement or by scrolling. */
@@ -177,8 +177,7 @@ export class Intents {
     if (target.element && isDisabled(target.element)) return;
     if (reactivate === null ? scope.spent.has(target) : now - target.meant < reactivate) return;
     while (this.#begun[0] !== undefined && now - this.#begun[0] >= MINUTE) this.#begun.shift();
-    if (this.#begun.length >= limit.perMinute || [...this.#open.values()].filter((each) => each.running).length >= limit.running)
-      return;
+    if (this.#begun.length >= limit.perMinute || this.#running.size >= limit.running) return;
     this.#begun.push(now);
     scope.spent.add(target);
     target.meant = now;
@@ -197,11 +196,9 @@ export class Intents {
     };
     if (this.#settings().decorate) target.element?.setAttribute(PREDICTED, "true");
     dispatch(this.#settings(), target, "intent", intent);
-    const open: Open = { intent, controller, running: true, scope };
-    this.#open.set(target, open);
-    const done = () => {
-      open.running = false;
-    };
+    this.#open.set(target, { intent, controller, scope });
+    this.#running.add(intent);
+    const done = () => this.#running.delete(intent);
     Promise.resolve(this.#sinks.begun(intent, target)).then(done, (error: unknown) => {
       done();
       if ((error as Error | null)?.name !== "AbortError") this.#sinks.failed(error);
@@ -215,7 +212,7 @@ export class Intents {
     // what a rest had ended that turns out to be none may be meant once more
     if ("rested" in open.scope && open.scope.rested) open.scope.spent.delete(target);
     if (!pressed) {
-      open.running = false;
+      this.#running.delete(open.intent);
       open.controller.abort();
     }
     target.element?.removeAttribute(PREDICTED);

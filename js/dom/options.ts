@@ -3,7 +3,7 @@
  *
  * @module
  */
-import { fields, isAbsent, notNegative, number, refuse, text } from "../core/read.js";
+import { fields, isAbsent, notNegative, number, positive, refuse, text } from "../core/read.js";
 import type { TargetOptions, WatchOptions, WatchTarget } from "./types.js";
 
 /** How much larger a box is than its element: top, right, bottom, left. */
@@ -141,7 +141,7 @@ const OPTIONS: Table = {
   threshold: [share, 0.8],
   release: [share],
   none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.05],
-  rest: [notNegative, 300],
+  rest: [positive, 300],
   target: [(value, path) => (typeof value === "function" ? value : readTarget(value, path)), {}],
   reasons: [(value, path) => read(value, REASONS, path), read({}, REASONS, "")],
   reactivate: [
@@ -152,7 +152,7 @@ const OPTIONS: Table = {
           ? Infinity
           : typeof value === "number"
             ? notNegative(value, path)
-            : refuse("wrong-type", path, 'must be "never", "movement" or milliseconds', value),
+            : refuse("out-of-range", path, 'must be "never", "movement" or milliseconds', value),
     null,
   ],
   limit: [(value, path) => read(value, LIMIT, path), read({}, LIMIT, "")],

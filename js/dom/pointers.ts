@@ -74,6 +74,8 @@ export function listenToPointers(
     if (event.pointerType !== "touch") last = event;
     const place = placeOf(event);
     const finger = fingers.get(event.pointerId);
+    // a finger that scrolls the page goes on with raw updates
+    if (event.pointerType === "touch" && !finger) return;
     if (finger && distance(place, finger.place) > TAP) finger.still = false;
     // the list may have the event itself or not, and may be empty
     const samples = [...(event.getCoalescedEvents?.() ?? []), event].map(sampleOf);

@@ -4,7 +4,7 @@
  * @module
  */
 import { WhitherError } from "#error";
-import { number, refuse, text } from "../core/read.js";
+import { isAbsent, missing, number, refuse, text } from "../core/read.js";
 import { readTarget, type Settings, type TargetSettings } from "./options.js";
 import { hostOf } from "./platform.js";
 import type { Bounds, WatchTarget, WatchTargets } from "./types.js";
@@ -232,6 +232,7 @@ function readNode(node: WatchTarget, path: string): WatchTarget {
   if (typeof node !== "object" || node === null) refuse("wrong-type", path, "must be an element or a virtual target", node);
   if (isElement(node)) return node;
   text(node.id, `${path}.id`);
+  if (isAbsent(node.bounds)) missing(`${path}.bounds`);
   if (typeof node.bounds !== "function") refuse("wrong-type", `${path}.bounds`, "must be a function", node.bounds);
   readBounds(node.bounds(), `${path}.bounds()`);
   return node;

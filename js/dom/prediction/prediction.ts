@@ -127,7 +127,7 @@ export class Prediction {
       const best = track.posterior.best();
       if (best && track.fresh) track.movement?.note(best, track.posterior.probability(best));
       track.fresh = false;
-      intents.consider(track.hand, best);
+      intents.consider(track.hand, track.posterior.targets, track.posterior.probabilities);
     }
     return true;
   }
