@@ -2,6 +2,7 @@
 import { showSizes } from "../scripts/size.mjs";
 import { table } from "../scripts/table.mjs";
 import { seldomLimits } from "./cases.mjs";
+import { LIMIT } from "./dom.mjs";
 import { line } from "./measure.mjs";
 
 const count = (n) => n.toLocaleString("en-GB");
@@ -30,6 +31,7 @@ export function report(result) {
   showObservations(of("observations"), platforms);
   showMethods(of("methods"), platforms);
   showPeers(result, of("methods"), of("budget"));
+  showDom(chromium.dom);
   showMemory(result.memory);
   console.log("From `import` to the first prediction, Chromium:\n");
   table(
@@ -181,6 +183,30 @@ function showPeers({ native, node, chromium, numpy }, methods, budget) {
   } else {
     console.log("Algorithm 1 in numpy is missing: pip install numpy, or set PYTHON to a Python that has it.\n");
   }
+}
+
+function showDom({ count: targets, rows, none, ...watchers }) {
+  console.log(
+    `A page of ${count(targets)} visible targets under a pointer at 1 kHz: ms of its main thread (processor time) beyond those ` +
+      "without a watcher, long tasks as they are:\n",
+  );
+  const names = { whither: "`whither/dom`", foresight: "ForesightJS" };
+  const beyond = (one, key) => digits(one[key] - none[key]);
+  table(
+    ["", "a frame, median", "at most", "", "a frame, 95%", "long tasks", `mounting ${count(rows)} rows`, "unmounting"],
+    [
+      ["without, in all", digits(none.frame), "", "", digits(none.high), none.long, digits(none.mount), digits(none.unmount)],
+      ...Object.entries(watchers).map(([key, one]) => [
+        names[key],
+        beyond(one, "frame"),
+        ...(key === "whither" ? [LIMIT, met(one.frame - none.frame <= LIMIT)] : ["", ""]),
+        beyond(one, "high"),
+        one.long,
+        beyond(one, "mount"),
+        beyond(one, "unmount"),
+      ]),
+    ],
+  );
 }
 
 function showMemory({ taken, growth }) {

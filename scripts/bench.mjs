@@ -4,6 +4,7 @@ import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs"
 import { arch, cpus } from "node:os";
 import { join } from "node:path";
 import { cases } from "../benches/cases.mjs";
+import { measureDom } from "../benches/dom.mjs";
 import { median } from "../benches/measure.mjs";
 import { measureNumpy } from "../benches/numpy.mjs";
 import { report } from "../benches/report.mjs";
@@ -98,7 +99,7 @@ async function inChromium(quick) {
   const esbuild = await import("esbuild");
   await esbuild.build({
     absWorkingDir: root,
-    entryPoints: ["benches/browser.mjs"],
+    entryPoints: ["benches/browser.mjs", "benches/dom-page.mjs"],
     outdir: page,
     bundle: true,
     splitting: true,
@@ -117,7 +118,9 @@ async function inChromium(quick) {
     await tab.addScriptTag({ type: "module", content: 'import "/browser.js"; globalThis.ready = true;' });
     await tab.waitForFunction(() => globalThis.ready);
     const measured = await Promise.race([failed, tab.evaluate((quick) => globalThis.measure(quick), quick)]);
-    return { version: browser.version(), start, ...measured };
+    await tab.close();
+    const dom = await measureDom(browser, server.url, quick);
+    return { version: browser.version(), start, ...measured, dom };
   } finally {
     await browser.close();
     await server.close();
