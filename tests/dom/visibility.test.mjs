@@ -118,7 +118,7 @@ describe("visibility", () => {
         isIntended: intended.includes(it),
         probability: watcher.probability(it),
         since: predictions.length,
-        intents: intents.length,
+        intents: intents.filter((id) => id === "target").length,
       };
     })()`;
     const options = { expression, awaitPromise: true, returnByValue: true, userGesture: true };
@@ -143,7 +143,7 @@ describe("visibility", () => {
       const [gone] = await Promise.all([changed(page, change[0]), play(0.45, 0.6)]);
       await nextFrame(page);
       const meanwhile = (await page.evaluate(() => predictions)).slice(gone.since);
-      const intents = await page.evaluate("intents.length");
+      const intents = await page.evaluate('intents.filter((id) => id === "target").length');
       const [back] = await Promise.all([changed(page, change[1]), play(0.6, 0.8)]);
       await nextFrame(page);
       const last = await page.evaluate(() => predictions.findLast(({ best }) => best !== null));
@@ -151,7 +151,7 @@ describe("visibility", () => {
 
       const { since, intents: earlier, ...then } = gone;
       assert.deepEqual(then, { moving: true, isBest: false, isIntended: false, probability: 0 });
-      assert.ok(meanwhile.length > 3, `there are ${meanwhile.length} predictions meanwhile`);
+      assert.ok(meanwhile.length > 3 || !rivals, `there are ${meanwhile.length} predictions meanwhile`);
       assert.ok(meanwhile.every(({ best, intended }) => best !== "target" && !intended.includes("target")));
       assert.equal(intents, earlier);
       assert.ok(back.probability > 0, "it is back after two frames");
