@@ -143,7 +143,7 @@ const OPTIONS: Table = {
   none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.05],
   rest: [positive, 300],
   target: [(value, path) => (typeof value === "function" ? value : readTarget(value, path)), {}],
-  reasons: [(value, path) => read(value, REASONS, path), read({}, REASONS, "")],
+  reasons: [(value, path) => read(value, REASONS, path), read(undefined, REASONS, "")],
   reactivate: [
     (value, path) =>
       value === "movement"
@@ -155,7 +155,7 @@ const OPTIONS: Table = {
             : refuse("out-of-range", path, 'must be "never", "movement" or milliseconds', value),
     null,
   ],
-  limit: [(value, path) => read(value, LIMIT, path), read({}, LIMIT, "")],
+  limit: [(value, path) => read(value, LIMIT, path), read(undefined, LIMIT, "")],
   pointers: [
     (value, path) =>
       Array.isArray(value)
