@@ -1,8 +1,11 @@
 // The package in a browser without any bundler, and where a page forbids things.
 import { test } from "node:test";
 import assert from "node:assert/strict";
+import { join } from "node:path";
 import { launch } from "../../scripts/chromium.mjs";
+import { serve } from "../../scripts/serve.mjs";
 import { assertPredicted, copy, inBrowser, page, project, write } from "./support.mjs";
+import { assertEager, assertFallsBack, assertWatched, program } from "./watched.mjs";
 
 const main = `import { init, Predictor, WhitherError } from "./node_modules/whither/dist/index.js"; import { predict } from "./predict.js";
 window.outcome = predict({ init, Predictor }).catch((error) => (
@@ -63,5 +66,37 @@ test("without a bundler", async (t) => {
     const outcome = await open(slim('"./no-such-page.html"'));
     assert.deepEqual([outcome.whither, outcome.code], [true, "wasm-unavailable"]);
     assert.match(outcome.message, /no-such-page\.html must be WebAssembly, is an HTML page/);
+  });
+});
+
+test("whither/dom without a bundler", async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  const { folder } = await project(t);
+  const served = async (t, ...options) => {
+    const server = await serve(...options);
+    t.after(server.close);
+    return server.url;
+  };
+
+  await t.test("a page with an import map takes it from another host", async (t) => {
+    const host = await served(t, join(folder, "node_modules/whither"), { headers: { "access-control-allow-origin": "*" } });
+    const map = JSON.stringify({ imports: { "whither/dom": `${host}dist/dom.js` } });
+    write(folder, "site/index.html", page(`<script type="importmap">${map}</script><script type="module">${program()}</script>`));
+    const url = await served(t, join(folder, "site"));
+    await assertWatched(browser, url);
+    await assertEager(browser, url);
+  });
+
+  write(folder, "index.html", page('<script type="module" src="./main.js"></script>'));
+  write(folder, "main.js", program("./node_modules/whither/dist/dom.js"));
+
+  await t.test("a Content-Security-Policy needs 'wasm-unsafe-eval' and nothing else", async (t) => {
+    await assertWatched(browser, await served(t, folder, { headers: policy("'wasm-unsafe-eval'") }));
+  });
+
+  await t.test("without 'wasm-unsafe-eval' an error names it, once, and hover, press and focus go on", async (t) => {
+    const url = await served(t, folder, { headers: policy("") });
+    await assertFallsBack(browser, url, { expected: /Content Security Policy/ });
   });
 });

@@ -9,7 +9,9 @@ import { rollup } from "rollup";
 import * as vite from "vite";
 import webpack from "webpack";
 import { launch } from "../../scripts/chromium.mjs";
-import { assertPredicted, inBrowser, page, project, write } from "./support.mjs";
+import { serve } from "../../scripts/serve.mjs";
+import { assertPredicted, inBrowser, inTab, page, project, write } from "./support.mjs";
+import { assertEager, assertWatched, program as watchingLinks } from "./watched.mjs";
 
 const program = `import { init, Predictor } from "whither"; import { predict } from "./predict.js";
 window.outcome = predict({ init, Predictor });`;
@@ -40,6 +42,9 @@ const bundlers = {
   },
 };
 
+/** What makes one file of all, so that nothing can come later. */
+const inOneFile = (name) => name === "esbuild";
+
 test("bundled without configuration", async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
@@ -67,19 +72,42 @@ test("bundled without configuration", async (t) => {
     assert.deepEqual(files.sort(), ["error.js", "pointing-bytes.js", "pointing.js"]);
   });
 
-  await t.test("by Vite's development server", async () => {
-    const server = await vite.createServer({ root: folder, configFile: false, logLevel: "warn", server: { port: 0 } });
-    await server.listen();
-    const tab = await browser.newPage();
-    try {
-      const failures = [];
-      tab.on("pageerror", (error) => failures.push(String(error)));
-      await tab.goto(`http://localhost:${server.httpServer.address().port}/`);
-      assertPredicted(await tab.evaluate(() => window.outcome));
-      if (failures.length > 0) throw new Error(failures.join("\n"));
-    } finally {
-      await tab.close();
-      await server.close();
-    }
+  await t.test("by Vite's development server", async (t) => {
+    const url = await developmentServer(t, folder);
+    const outcome = async (tab) => {
+      await tab.goto(url);
+      return tab.evaluate(() => window.outcome);
+    };
+    assertPredicted(await inTab(browser, outcome));
   });
 });
+
+test("whither/dom bundled without configuration: the core is a file of its own that comes later", async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  const { folder } = await project(t);
+  write(folder, "main.js", watchingLinks());
+  for (const [name, bundle] of Object.entries(bundlers)) {
+    await t.test(`by ${name}`, async (t) => {
+      write(folder, "site/index.html", page('<script type="module" src="./main.js"></script>'));
+      await bundle(folder);
+      const server = await serve(join(folder, "site"));
+      t.after(server.close);
+      await assertWatched(browser, server.url, { inOneFile: inOneFile(name) });
+      await assertEager(browser, server.url);
+    });
+  }
+
+  await t.test("by Vite's development server", async (t) => {
+    const url = await developmentServer(t, folder);
+    await assertWatched(browser, url);
+    await assertEager(browser, url);
+  });
+});
+
+async function developmentServer(t, folder) {
+  const server = await vite.createServer({ root: folder, configFile: false, logLevel: "warn", server: { port: 0 } });
+  t.after(() => server.close());
+  await server.listen();
+  return `http://localhost:${server.httpServer.address().port}/`;
+}

@@ -53,6 +53,52 @@ test("in Node", async (t) => {
     });
   }
 
+  for (const [kind, load] of Object.entries({ import: "await import", require: "createRequire(import.meta.url)" })) {
+    await t.test(`whither/dom by ${kind}: watch() does nothing on a server, and what it returns is at rest`, async () => {
+      const text = `import { createRequire } from "node:module";
+        const { watch, WhitherError } = ${load}("whither/dom");
+        const called = [];
+        const callback = (name) => () => void called.push(name);
+        const options = { load: "eager", record: true, reasons: { keyboard: { tabs: 2 } } };
+        for (const name of ["onIntent", "onRelease", "onPrediction", "onOutcome", "onError"]) options[name] = callback(name);
+        const watcher = watch("nav a, [data-card]", options);
+        const shape = { id: "shape", bounds: () => ({ x: 0, y: 0, width: 9, height: 9 }) };
+        const other = watch([shape]);
+        other.add({ ...shape, id: "another" });
+        other.set(shape, { prior: 2 });
+        other.remove(shape);
+        watcher.update({ threshold: 0.9 });
+        const unsubscribe = watcher.subscribe(callback("listener"));
+        const first = watcher.getSnapshot();
+        watcher.refresh();
+        watcher.pause();
+        watcher.resume();
+        await new Promise((resolve) => setTimeout(resolve, 50));
+        const { best, none, remaining, targets, ledger } = watcher;
+        const read = { best, none, remaining, targets, snapshot: first, same: watcher.getSnapshot() === first };
+        const asked = [watcher.probability(shape), watcher.forecast(1), watcher.path(shape, [1]).length];
+        const outcomes = [ledger.summary(), ledger.outcomes, ledger.lines()];
+        unsubscribe();
+        watcher.stop();
+        other.stop();
+        console.log(JSON.stringify({ called, read, asked, outcomes, error: typeof WhitherError }));`;
+      assert.deepEqual(await inNode(folder, `dom-${kind}.mjs`, text), {
+        called: [],
+        read: {
+          best: null,
+          none: 1,
+          remaining: null,
+          targets: [],
+          snapshot: { moving: false, best: null, none: 1, targets: [], intended: [] },
+          same: true,
+        },
+        asked: [0, null, 0],
+        outcomes: [null, [], []],
+        error: "function",
+      });
+    });
+  }
+
   await t.test("an import does nothing: no request, no compilation, nothing of the platform is used or made", async () => {
     // The language itself may be used: classes are made, and an error is one that extends another.
     const language = [

@@ -43,13 +43,20 @@ export function assertPredicted(probabilities) {
 export async function project(t) {
   const folder = realpathSync(mkdtempSync(join(tmpdir(), "whither-package-")));
   t.after(() => rmSync(folder, { recursive: true, force: true }));
+  write(folder, "package.json", JSON.stringify({ name: "a-users-project", private: true, type: "module" }));
+  const { tarball, files } = await install(folder);
+  write(folder, "predict.js", predict);
+  return { folder, tarball, files };
+}
+
+/** Packs the package into a project's folder and installs it there, beside what is installed there. */
+export async function install(folder) {
   // What else npm prints goes to standard error, so only the JSON is read.
   const packed = await npm(["pack", "--ignore-scripts", "--json", "--pack-destination", folder], root);
-  const [tarball] = Object.values(JSON.parse(packed.slice(packed.search(/^[[{]/m))));
-  write(folder, "package.json", JSON.stringify({ name: "a-users-project", private: true, type: "module" }));
-  await npm(["install", "--offline", "--no-audit", "--no-fund", join(folder, tarball.filename)], folder);
-  write(folder, "predict.js", predict);
-  return { folder, tarball: join(folder, tarball.filename), files: tarball.files.map(({ path }) => path) };
+  const [{ filename, files }] = Object.values(JSON.parse(packed.slice(packed.search(/^[[{]/m))));
+  const tarball = join(folder, filename);
+  await npm(["install", "--no-save", "--offline", "--no-audit", "--no-fund", tarball], folder);
+  return { tarball, files: files.map(({ path }) => path) };
 }
 
 async function npm(args, cwd) {
@@ -84,19 +91,15 @@ export function page(script) {
 }
 
 /**
- * Opens the folder's page in the browser and gives what its `window.outcome` comes to. Any error that the browser reports fails,
- * but for those that match `expected`.
+ * Gives what `use(tab)` does with a tab of its own. Any error that the browser reports fails, but for those that match `expected`.
  */
-export async function inBrowser(browser, folder, { headers, expected = null } = {}) {
-  const server = await serve(folder, { headers });
+export async function inTab(browser, use, expected = null) {
   const tab = await browser.newPage();
   const errors = [];
   tab.on("pageerror", (error) => errors.push(String(error)));
   tab.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   try {
-    await tab.goto(server.url);
-    await tab.waitForFunction(() => window.outcome !== undefined);
-    const outcome = await tab.evaluate(() => window.outcome);
+    const outcome = await use(tab);
     assert.deepEqual(
       errors.filter((text) => expected === null || !expected.test(text)),
       [],
@@ -104,6 +107,20 @@ export async function inBrowser(browser, folder, { headers, expected = null } = 
     return outcome;
   } finally {
     await tab.close();
+  }
+}
+
+/** Opens the folder's page in the browser and gives what its `window.outcome` comes to. Errors as in {@link inTab}. */
+export async function inBrowser(browser, folder, { headers, expected = null } = {}) {
+  const server = await serve(folder, { headers });
+  const outcome = async (tab) => {
+    await tab.goto(server.url);
+    await tab.waitForFunction(() => window.outcome !== undefined);
+    return tab.evaluate(() => window.outcome);
+  };
+  try {
+    return await inTab(browser, outcome, expected);
+  } finally {
     await server.close();
   }
 }
