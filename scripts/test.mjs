@@ -1,4 +1,5 @@
-// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js dom package browser` runs the parts that are named.
+// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js dom package browser` runs the parts that are named,
+// `npm test -- elsewhere` one that is run only by its name.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
@@ -55,6 +56,15 @@ const parts = {
   },
 };
 
+/** What is tried with other people's large programs, which it installs first. */
+const apart = {
+  async elsewhere() {
+    await ensureChromium();
+    await build();
+    await tests("node", nodeTests("tests/elsewhere"));
+  },
+};
+
 /** What was run: `{ name, passed, failed, skipped, seconds }`. */
 const runs = [];
 
@@ -100,12 +110,13 @@ function summary() {
 
 await main(import.meta.url, async () => {
   const wanted = process.argv.slice(2);
-  const unknown = wanted.find((name) => !(name in parts));
-  if (unknown !== undefined) throw new Failure(`no part of the tests is named ${unknown}: ${Object.keys(parts).join(", ")}`);
+  const known = { ...parts, ...apart };
+  const unknown = wanted.find((name) => !(name in known));
+  if (unknown !== undefined) throw new Failure(`no part of the tests is named ${unknown}: ${Object.keys(known).join(", ")}`);
   await setUp();
   for (const name of wanted.length > 0 ? wanted : Object.keys(parts)) {
     try {
-      await parts[name]();
+      await known[name]();
     } catch (error) {
       console.error(error instanceof Failure ? error.message : error);
       runs.push({ name: `what ${name} needs`, passed: 0, failed: 1, skipped: 0, seconds: 0 });
