@@ -53,8 +53,6 @@ export class Targets {
   #given: ReadonlySet<WatchTarget>;
   #own: ReadonlyMap<WatchTarget, TargetSettings> = new Map();
   #byNode = new Map<unknown, Target>();
-  /** Those that no path of an event has. */
-  #pathless: Target[] = [];
   #count = 0;
   /** Whether the document may have other elements by now. */
   stale = false;
@@ -93,14 +91,9 @@ export class Targets {
     return roots;
   }
 
-  /** The targets at a place, the innermost first: elements by the path of an event, virtual ones and those in closed trees by their box. */
-  at(path: readonly EventTarget[], place: { readonly x: number; readonly y: number }): Target[] {
-    const found = path.flatMap((node) => this.find(node) ?? []);
-    for (const target of this.#pathless) {
-      const host = target.element && hostOf(target.element.getRootNode());
-      if (target.box && isInside(place, target.box) && (!host || path.includes(host))) found.unshift(target);
-    }
-    return found.filter(({ settings }) => settings.enabled !== false);
+  /** The targets among the nodes of a path, in its order. */
+  on(path: readonly EventTarget[]): Target[] {
+    return path.flatMap((node) => this.find(node) ?? []);
   }
 
   /** Watches more. */
@@ -146,6 +139,8 @@ export class Targets {
         resolved.set(target, one);
         if (one.id === undefined) continue;
         if (ids.has(one.id)) {
+          // the first one has it
+          resolved.set(target, { ...one, id: undefined });
           throw new WhitherError("duplicate-id", "target.id", `the id ${JSON.stringify(one.id)} is taken by another target`);
         }
         ids.add(one.id);
@@ -158,7 +153,6 @@ export class Targets {
     for (const [target, one] of resolved) target.settings = one;
     for (const node of readmitted) this.#removed.delete(node);
     [this.#byNode, this.#settings, this.#given, this.#own] = [next, settings, given, own];
-    this.#pathless = [...this.all].filter(({ element }) => !element || (element.getRootNode() as ShadowRoot).mode === "closed");
     this.stale = false;
     return { added, removed };
   }
@@ -207,10 +201,6 @@ function isElement(node: WatchTarget): node is Element {
 function isIgnored(element: Element): boolean {
   const host = hostOf(element.getRootNode());
   return element.closest("[data-whither-ignore]") !== null || (host !== null && isIgnored(host));
-}
-
-function isInside({ x, y }: { readonly x: number; readonly y: number }, box: Bounds): boolean {
-  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
 }
 
 function query(root: ParentNode, selector: string): Element[] {

@@ -244,7 +244,7 @@ class PageWatcher implements Watcher, PointerSinks {
 
   pressed(pointer: PointerId, place: Place): void {
     const hand = this.#hand(pointer);
-    const targets = this.#at(place);
+    const targets = this.#at(place, false);
     const outcome = this.#prediction?.press(hand, targets);
     this.#intents.press(hand, targets);
     if (outcome) this.#calls.call(this.#settings.onOutcome, outcome);
@@ -294,15 +294,16 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#intents.review();
   }
 
-  #at(place: Place): Target[] {
+  /** The targets at a place, the innermost first; with `reach` also those that hitSlop enlarges up to there. */
+  #at(place: Place, reach = true): readonly Target[] {
     this.#sync();
-    return this.#targets.at(place.path, place);
+    const found = this.#targets.on(place.path).filter(({ settings }) => settings.enabled !== false);
+    return this.#prediction?.at(place, found, reach) ?? found;
   }
 
   #focused(path: readonly EventTarget[], ahead: readonly Element[]): void {
     this.#sync();
-    const found = (nodes: readonly EventTarget[]) => nodes.flatMap((node) => this.#targets.find(node) ?? []);
-    this.#intents.focus(found(path)[0] ?? null, found(ahead));
+    this.#intents.focus(this.#targets.on(path)[0] ?? null, this.#targets.on(ahead));
   }
 
   /** Begins to follow pointers and the focus, or again with other options. */
@@ -356,7 +357,8 @@ class PageWatcher implements Watcher, PointerSinks {
       presence: this.#presence,
       settings: () => this.#settings,
       intents: this.#intents,
-      scrolled: (hand, path, place) => this.#over(hand, this.#targets.at(path, place), "scroll"),
+      failed: this.#calls.report,
+      scrolled: (hand, place) => this.#over(hand, this.#at(place), "scroll"),
     });
     this.#prediction = prediction;
     for (const run of this.#kept?.splice(0) ?? []) run(prediction);

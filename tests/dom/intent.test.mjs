@@ -94,7 +94,7 @@ describe("intent", () => {
     });
 
     it("runs as many at a time as the limit has it: until a promise is fulfilled, or the signal aborts", async () => {
-      const { page, step, rest, close } = await scripted(
+      const { page, step, press, rest, close } = await scripted(
         site,
         `{ limit: { running: 1 }, onIntent: ({ target, signal }) => {
              log.push({ kind: "intent", target: target.id });
@@ -114,6 +114,13 @@ describe("intent", () => {
       await rest();
       await step({ f: 0.9 });
       assert.deepEqual(await targets(page), ["c", "d", "e", "f"]);
+      await press({ x: 650, y: 350 });
+      await step({});
+      await step({ g: 0.9 });
+      assert.deepEqual(await targets(page), ["c", "d", "e", "f"], "what was pressed goes on");
+      await page.evaluate(() => fulfil());
+      await step({ g: 0.9 });
+      assert.deepEqual(await targets(page), ["c", "d", "e", "f", "g"]);
       await close();
     });
 
@@ -122,6 +129,7 @@ describe("intent", () => {
       await step({});
       for (const target of ["c", "d", "e", "f"]) await step({ [target]: 0.9 });
       assert.deepEqual(await targets(page), ["c", "d"]);
+      await step({});
       await page.evaluate(() => watcher.update({ limit: undefined }));
       await step({ g: 0.9 });
       assert.deepEqual(await targets(page), ["c", "d", "g"]);
@@ -343,30 +351,36 @@ describe("intent", () => {
 
     it("is right for at least 90% on a grid of 21 buttons, and before the pointer is there for at least 80% of them", async (test) => {
       const places = Array.from({ length: 21 }, (_, k) => [`t${k}`, 60 + 130 * (k % 7), 120 + 180 * Math.floor(k / 7), 80, 80]);
-      const { page, close } = await open(site, buttons(...places), { script: READY });
-      const hand = await mouse(page);
-      const middle = ([, left, top]) => ({ x: left + 40, y: top + 40 });
-      const count = 28;
-      let at = { x: 20, y: 680 };
-      let [early, right, all] = [0, 0, 0];
-      for (let k = 0; k < count; k += 1) {
-        const place = places[(k * 8 + 3) % 21];
-        await hand.play([[0, at.x, at.y]]);
-        await hand.rest(REST);
-        await page.evaluate(() => (log.length = 0));
-        const goal = middle(place);
-        await hand.play(movement(at, goal, 80, { seed: 100 + k }));
-        await nextFrame(page);
-        const intents = (await logged(page, "intent")).filter(({ reason }) => reason === "pointer");
-        all += intents.length;
-        right += intents.filter(({ target }) => target === place[0]).length;
-        early += Number(intents.some(({ target, over }) => target === place[0] && over !== target));
-        at = goal;
-      }
+      /** Movements from target to target, numbers `first` to `last`: how many were early, and the intents. */
+      const visit = async (first, last) => {
+        const { page, close } = await open(site, buttons(...places), { script: READY });
+        const hand = await mouse(page);
+        let at = { x: 20, y: 680 };
+        const found = { early: 0, right: 0, all: 0 };
+        for (let k = first; k < last; k += 1) {
+          const [id, left, top] = places[(k * 8 + 3) % 21];
+          await hand.play([[0, at.x, at.y]]);
+          await hand.rest(REST);
+          await page.evaluate(() => (log.length = 0));
+          const goal = { x: left + 40, y: top + 40 };
+          await hand.play(movement(at, goal, 80, { seed: 100 + k }));
+          await nextFrame(page);
+          const intents = (await logged(page, "intent")).filter(({ reason }) => reason === "pointer");
+          found.all += intents.length;
+          found.right += intents.filter(({ target }) => target === id).length;
+          found.early += Number(intents.some(({ target, over }) => target === id && over !== id));
+          at = goal;
+        }
+        await close();
+        return found;
+      };
+      const [per, hands] = [10, 3];
+      const parts = await Promise.all(Array.from({ length: hands }, (_, k) => visit(k * per, (k + 1) * per)));
+      const [early, right, all] = ["early", "right", "all"].map((key) => parts.reduce((sum, part) => sum + part[key], 0));
+      const count = per * hands;
       test.diagnostic(`${early} of ${count} early, ${right} of ${all} right`);
       assert.ok(early >= 0.8 * count, `${early} of ${count} before the pointer was there`);
       assert.ok(right >= 0.9 * all, `${right} of ${all} right`);
-      await close();
     });
   });
 

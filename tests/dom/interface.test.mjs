@@ -639,6 +639,7 @@ describe("watch", () => {
       });
       const result = await page.evaluate(async () => {
         const list = document.querySelector("#list");
+        await frames(3);
         const before = standing();
         for (let round = 0; round < 10; round += 1) {
           list.innerHTML = Array.from({ length: 1000 }, (_, k) => `<p class="row" id="r${k}">${k}</p>`).join("");

@@ -47,7 +47,37 @@ describe("reasons", () => {
       await close();
     });
 
-    it("has the box that hitSlop enlarges, also of a virtual target", async () => {
+    it("has the box that hitSlop enlarges, but what is directly under the pointer comes first", async () => {
+      const body = buttons(["a", 300, 300], ["b", 385, 300]);
+      const { page, close } = await open(site, body, {
+        script: `window.watcher = record("button", {
+            reasons: { pointer: false, press: true, focus: false },
+            target: ({ id }) => id === "a" ? { hitSlop: 30 } : {},
+          });
+          await watcher.ready; await frames(3);`,
+      });
+      await page.mouse.move(100, 600);
+      await page.mouse.move(100, 500);
+      await nextFrame(page);
+      await page.mouse.move(260, 330);
+      await sleep(0.2);
+      assert.deepEqual(await reasons(page), [], "40 px beside it");
+      await page.mouse.move(275, 330);
+      await sleep(0.2);
+      assert.deepEqual(await reasons(page), [["a", "hover"]]);
+      await page.mouse.down();
+      await page.mouse.up();
+      assert.deepEqual(await logged(page, "outcome"), [], "a press beside it is none on it");
+      await page.mouse.move(395, 330);
+      await sleep(0.2);
+      assert.deepEqual(await reasons(page), [
+        ["a", "hover"],
+        ["b", "hover"],
+      ]);
+      await close();
+    });
+
+    it("has the box of a virtual target, with its hitSlop", async () => {
       const { page, close } = await open(site, `<canvas width="900" height="600" style="display:block"></canvas>`, {
         script: `
           window.shape = { id: "shape", bounds: () => ({ x: 300, y: 300, width: 50, height: 50 }) };

@@ -5,11 +5,13 @@
  *
  * @module
  */
+import type { Place } from "../pointers.js";
 import type { Presence } from "../presence.js";
 import { attempt, hostOf, type Platform } from "../platform.js";
+import type { Parts } from "./prediction.js";
 import { closest, contains, type Frame, type Surface } from "./surface.js";
 import { readBounds, type Target, type Targets } from "../targets.js";
-import type { Bounds } from "../types.js";
+import type { Bounds, VirtualTarget } from "../types.js";
 
 /** Above this probability it is worth finding out whether something covers a target. */
 const WORTH = 0.01;
@@ -45,9 +47,15 @@ export class Layout {
   #probe = 0;
   readonly #covered = new Set<Target>();
   #active: readonly Target[] = [];
+  /** Of these the ones that are at places where no path of an event has them. */
+  #boxed: readonly Target[] = [];
+  readonly #failed: (error: unknown) => void;
+  /** Whose bounds were wrong when they were read last. */
+  readonly #wrong = new Set<Target>();
   #stale = true;
 
-  constructor(platform: Platform, surface: Surface, targets: Targets, presence: Presence) {
+  constructor({ platform, surface, targets, presence, failed }: Parts) {
+    this.#failed = failed;
     this.#platform = platform;
     this.#surface = surface;
     this.#targets = targets;
@@ -60,13 +68,17 @@ export class Layout {
     if (this.#stale) {
       this.#stale = false;
       this.#active = [...this.#targets.all].filter(isActive);
+      this.#boxed = this.#active.filter((target) => isPathless(target) || target.settings.hitSlop);
     }
     return this.#active;
   }
 
   /** Takes in that targets are no longer watched. */
   forget(removed: readonly Target[]): void {
-    for (const target of removed) this.#covered.delete(target);
+    for (const target of removed) {
+      this.#covered.delete(target);
+      this.#wrong.delete(target);
+    }
     this.#stale = true;
   }
 
@@ -82,8 +94,22 @@ export class Layout {
     return { ...place, x: x + across * place.x, y: y + down * place.y };
   }
 
-  /** The elements at a place of the main window's viewport, the innermost first. */
-  pathAt({ x, y }: { readonly x: number; readonly y: number }): Element[] {
+  /**
+   * The targets at a place, the innermost first, by where the boxes were when they were last read.
+   *
+   * @param found - Those on its path: after those that no path has, before those that only hitSlop enlarges up to there.
+   * @param reach - Whether hitSlop counts.
+   */
+  at(place: Place, found: readonly Target[], reach: boolean): readonly Target[] {
+    if (this.active.length === 0 || this.#boxed.length === 0) return found;
+    const main = this.toMain(place.view, place);
+    const inside = this.#boxed.filter((target) => !found.includes(target) && isInside(main, target, reach));
+    const inner = inside.filter((target) => isPathless(target) && isOnPath(target, place.path));
+    return [...inner, ...found, ...inside.filter((target) => reach && !isPathless(target))];
+  }
+
+  /** A place of the main window's viewport, with the elements there, the innermost first. */
+  placeAt({ x, y }: { readonly x: number; readonly y: number }): Place {
     const path: Element[] = [];
     let at = this.#surface.topmost(this.#platform.window.document, x, y);
     for (let view = innerOf(at); view; ) {
@@ -94,7 +120,7 @@ export class Layout {
       view = innerOf(at);
     }
     for (; at; at = at.parentElement ?? hostOf(at.getRootNode())) path.push(at);
-    return path;
+    return { path, view: this.#platform.window, x, y };
   }
 
   /** The one phase of reading, at the beginning of a frame. `leading` are the most probable targets; gives whether anything changed. */
@@ -165,10 +191,11 @@ export class Layout {
     this.#stale = true;
   }
 
-  #box({ element, node, settings }: Target): Bounds | null {
-    let { x, y, width, height } = element
-      ? this.#surface.box(element)
-      : readBounds((node as never as { bounds(): Bounds }).bounds(), "bounds()");
+  #box(target: Target): Bounds | null {
+    const { element, settings } = target;
+    const bounds = element ? this.#surface.box(element) : this.#bounds(target);
+    if (!bounds) return null;
+    let { x, y, width, height } = bounds;
     if (!(width > 0 && height > 0)) return null;
     const view = element?.ownerDocument.defaultView;
     if (view && view !== this.#platform.window) {
@@ -178,6 +205,19 @@ export class Layout {
     }
     const [top, right, bottom, left] = settings.hitSlop ?? [0, 0, 0, 0];
     return { x: x - left, y: y - top, width: width + left + right, height: height + top + bottom };
+  }
+
+  /** Where a virtual target is; null where its bounds are wrong, which is reported once. */
+  #bounds(target: Target): Bounds | null {
+    try {
+      const bounds = readBounds((target.node as VirtualTarget).bounds(), "bounds()");
+      this.#wrong.delete(target);
+      return bounds;
+    } catch (error) {
+      if (!this.#wrong.has(target)) this.#failed(error);
+      this.#wrong.add(target);
+      return null;
+    }
   }
 
   #restyle(): void {
@@ -225,6 +265,25 @@ function isActive({ box, covered, settings }: Target): boolean {
 function belongs(found: Element, element: Element): boolean {
   const label = closest(found, "label") as HTMLLabelElement | null;
   return contains(element, found) || contains(found, element) || label?.control === element;
+}
+
+/** Whether no path of an event has it: it is virtual, or in a closed shadow tree. */
+function isPathless({ element }: Target): boolean {
+  return !element || (element.getRootNode() as ShadowRoot).mode === "closed";
+}
+
+/** Whether the path has the host of its shadow tree, if it is in one. */
+function isOnPath({ element }: Target, path: readonly EventTarget[]): boolean {
+  const host = element && hostOf(element.getRootNode());
+  return !host || path.includes(host);
+}
+
+/** Whether a place is in its box; without `reach` as it is without hitSlop. */
+function isInside({ x, y }: { readonly x: number; readonly y: number }, { box, settings }: Target, reach: boolean): boolean {
+  const [top, right, bottom, left] = (!reach && settings.hitSlop) || [0, 0, 0, 0];
+  return (
+    box !== null && x >= box.x + left && x <= box.x + box.width - right && y >= box.y + top && y <= box.y + box.height - bottom
+  );
 }
 
 function sameBox(a: Bounds, b: Bounds): boolean {

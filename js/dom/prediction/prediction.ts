@@ -9,7 +9,7 @@ import type { Intents } from "../intent.js";
 import type { Outcome } from "../ledger.js";
 import type { Settings } from "../options.js";
 import type { Platform } from "../platform.js";
-import type { Sample } from "../pointers.js";
+import type { Place, Sample } from "../pointers.js";
 import type { Presence } from "../presence.js";
 import type { Posterior } from "../snapshot.js";
 import { idOf, type Target, type Targets } from "../targets.js";
@@ -41,8 +41,10 @@ export interface Parts {
   readonly presence: Presence;
   settings(): Settings;
   readonly intents: Intents;
+  /** What the page did wrong. */
+  failed(error: unknown): void;
   /** What a resting pointer is over after the page was scrolled under it. */
-  scrolled(hand: Hand, path: readonly Element[], place: { readonly x: number; readonly y: number }): void;
+  scrolled(hand: Hand, place: Place): void;
 }
 
 export class Prediction {
@@ -59,7 +61,7 @@ export class Prediction {
   constructor(core: MakePredictor, parts: Parts) {
     this.#parts = parts;
     this.#engine = new Engine(parts.settings, core);
-    this.#layout = new Layout(parts.platform, parts.surface, parts.targets, parts.presence);
+    this.#layout = new Layout(parts);
   }
 
   /** Takes samples in a window's viewport, of a pointer that was over these targets before; gives whether there was something to observe. */
@@ -75,6 +77,11 @@ export class Prediction {
     if (hand.over) track.moveOver(hand.over);
     if (observed) this.#shown = track;
     return observed;
+  }
+
+  /** The targets at a place, the innermost first: those on its path, and those that no path has. */
+  at(place: Place, found: readonly Target[], reach: boolean): readonly Target[] {
+    return this.#layout.at(place, found, reach);
   }
 
   /** What came of the movement that led to a press on these targets, the innermost first; null where there was none. */
@@ -114,8 +121,7 @@ export class Prediction {
       presence.changes.scrolled = false;
       for (const { hand } of this.#tracks.values()) {
         if (!hand.place || hand.isTouch || hand.moving) continue;
-        const place = this.#layout.toMain(hand.place.view, hand.place);
-        scrolled(hand, this.#layout.pathAt(place), place);
+        scrolled(hand, this.#layout.placeAt(this.#layout.toMain(hand.place.view, hand.place)));
       }
     }
     for (const track of this.#tracks.values()) track.restAfter(settings().rest, platform.now());
