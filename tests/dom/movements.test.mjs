@@ -319,7 +319,7 @@ describe("movements", () => {
     await hand.play(movement({ x: 40, y: 350 }, { x: 940, y: 350 }, 60, { seed: 2 }));
     const intents = await logged(page, "intent");
     assert.deepEqual(
-      intents.filter(({ over }) => over === "b"),
+      intents.filter(({ target, over }) => target === "b" && over === "b"),
       [],
     );
     assert.deepEqual([intents.at(-1).target, intents.at(-1).aborted], ["c", null]);
