@@ -49,8 +49,8 @@ export class TestPage implements Platform {
   readonly #core: MakePredictor;
   readonly #tabStops: FindTabStops;
   readonly #visible = new Map<TestElement, boolean>();
+  readonly #listeners = new Map<string, Set<(event: never) => void>>();
   readonly #visibilities = new Set<(element: TestElement) => void>();
-  #listeners = 0;
   readonly #mutations = new Set<(records: readonly MutationRecord[]) => void>();
 
   /**
@@ -60,18 +60,17 @@ export class TestPage implements Platform {
   constructor({ core, tabStops }: { core: MakePredictor; tabStops?: FindTabStops }) {
     this.#core = core;
     this.#tabStops = tabStops ?? (() => this.elements as never);
-    const view = new EventTarget();
-    this.window = view as Window;
-    this.document = Object.assign(new EventTarget(), {
+    this.document = {
       nodeType: 9,
       ownerDocument: null,
       parentNode: null,
-      defaultView: view,
+      defaultView: {},
       hidden: false,
       getRootNode: () => this.document,
       querySelectorAll: (selector: string) => this.elements.filter((element) => element.matches(selector)),
-    }) as never;
-    Object.assign(view, { document: this.document });
+    } as never;
+    this.window = this.document.defaultView as Window;
+    Object.assign(this.window, { document: this.document });
     this.surface = {
       box: (element) => (element as never as TestElement).box,
       frameOf: () => ({ x: 0, y: 0, across: 1, down: 1 }),
@@ -83,7 +82,8 @@ export class TestPage implements Platform {
 
   /** How many listeners and observers there are: 0 when every watcher has stopped. */
   get listening(): number {
-    return this.#listeners + this.#visibilities.size + this.#mutations.size;
+    const listeners = [...this.#listeners.values()].reduce((sum, { size }) => sum + size, 0);
+    return listeners + this.#visibilities.size + this.#mutations.size;
   }
 
   /** A watcher on this page. */
@@ -136,13 +136,11 @@ export class TestPage implements Platform {
 
   /** An event, now and on an element or on the document alone. */
   dispatch(type: string, target: Element | TestElement | null, fields: EventFields = {}): void {
-    const path: EventTarget[] = [];
+    const path: unknown[] = [];
     for (let at = target; at; at = at.parentElement) path.push(at);
     path.push(this.document, this.window);
-    const event = new Event(type);
-    const own = { timeStamp: this.clock.now, composedPath: () => path, ...fields };
-    for (const [name, value] of Object.entries(own)) Object.defineProperty(event, name, { value });
-    this.window.dispatchEvent(event);
+    const event = { type, timeStamp: this.clock.now, composedPath: () => path, ...fields };
+    for (const listener of [...(this.#listeners.get(type) ?? [])]) listener(event as never);
   }
 
   now(): number {
@@ -162,13 +160,14 @@ export class TestPage implements Platform {
   }
 
   listen(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop {
-    for (const type of types) target.addEventListener(type, listener as EventListener);
-    this.#listeners += types.length;
-    let stopped = false;
+    if (target !== this.window) return listenTo(target, types, listener);
+    const stops = types.map((type) => {
+      const all = this.#listeners.get(type) ?? new Set();
+      this.#listeners.set(type, all.add(listener));
+      return () => all.delete(listener);
+    });
     return () => {
-      for (const type of types) target.removeEventListener(type, listener as EventListener);
-      if (!stopped) this.#listeners -= types.length;
-      stopped = true;
+      for (const stop of stops) stop();
     };
   }
 
@@ -210,4 +209,12 @@ export class TestPage implements Platform {
   report(error: unknown): void {
     this.errors.push(error);
   }
+}
+
+/** Of an AbortSignal, say, which is as in a browser. */
+function listenTo(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop {
+  for (const type of types) target.addEventListener(type, listener as EventListener);
+  return () => {
+    for (const type of types) target.removeEventListener(type, listener as EventListener);
+  };
 }
