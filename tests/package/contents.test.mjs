@@ -26,8 +26,9 @@ test("the package", async (t) => {
     );
   });
 
-  await t.test("ships these files and no others, but for pages of documentation", () => {
-    assert.deepEqual(files.filter((name) => !/^docs\/[\w-]+\.md$/.test(name)).sort(), [
+  await t.test("ships these files and no others, but for pages of documentation and the recipes that they link to", () => {
+    const isPage = (name) => /^(docs\/[\w-]+\.md|examples\/dom\/[\w-]+\.(html|js))$/.test(name);
+    assert.deepEqual(files.filter((name) => !isPage(name)).sort(), [
       "ARCHITECTURE.md",
       "CHANGELOG.md",
       "LICENSE-APACHE",
