@@ -22,7 +22,9 @@ const watchers = {
     document.querySelectorAll(".target").forEach(register);
     // it is given each element by the page, which knows what it mounts; it finds by itself what is gone
     globalThis.mounted = (elements) => elements.forEach(register);
-    return { tracked: () => manager.getManagerData.activeElementCount, work: () => called };
+    // it keeps what is out of the document, parked
+    const tracked = () => manager.getManagerData.registeredElements.size - manager.getManagerData.parkedElementCount;
+    return { tracked, work: () => called };
   },
 };
 

@@ -53,7 +53,7 @@ async function measurePage(browser, url, name, seconds) {
   const edges = marks.filter((mark) => mark.name === "frame" || mark.name === "end").map((mark) => mark.at);
   return {
     frames: edges.slice(1).map((edge, k) => spent(tasks, edges[k], edge)),
-    long: tasks.filter(({ end, busy }) => busy > 50 && end > edges[0] && start < edges.at(-1)).length,
+    long: tasks.filter(({ end, busy }) => busy > 50 && end > edges[0] && end <= edges.at(-1)).length,
     mount: spent(tasks, at("mount"), at("mounted")),
     unmount: spent(tasks, at("unmount"), at("unmounted")),
     work: done.work / done.frames,

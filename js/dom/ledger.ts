@@ -18,7 +18,7 @@ export interface Outcome<T extends WatchTarget = WatchTarget> {
   readonly pointerType: string;
   /** Right: the target was intended before the press, and no other one in this movement. Wrong: another one was. Unsure: none was. */
   readonly verdict: "right" | "wrong" | "unsure";
-  /** The first other target that was intended; null where the verdict is not "wrong". */
+  /** The first other target that was intended; null where the verdict is not "wrong", and where it is no longer watched. */
   readonly mistaken: T | null;
   /** Seconds from the intent of the target, after the last one of another, to the press; 0 without one. */
   readonly lead: number;

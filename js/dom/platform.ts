@@ -88,9 +88,13 @@ export function browser(): Platform | null {
     },
     visibility(changed) {
       if (typeof IntersectionObserver !== "function") return null;
-      const observer = new IntersectionObserver((entries) => {
-        for (const { target, isIntersecting } of entries) changed(target, isIntersecting);
-      });
+      // what only touches the edge intersects with a ratio of 0: it cannot be pointed at
+      const observer = new IntersectionObserver(
+        (entries) => {
+          for (const { target, intersectionRatio } of entries) changed(target, intersectionRatio > 0);
+        },
+        { threshold: [0, 1e-6] },
+      );
       return {
         observe: (node) => observer.observe(node as Element),
         unobserve: (node) => observer.unobserve(node as Element),

@@ -45,8 +45,9 @@ export class Presence {
       const target = targets.find(element);
       if (!target || target.visible === isVisible) return;
       target.visible = isVisible;
+      target.styled = false;
       sinks.visible(target);
-      this.outdate();
+      this.#move();
     });
     this.#mutations = platform.mutations((records) => this.#note(records));
   }

@@ -11,15 +11,16 @@ import type { Bounds, WatchTarget, WatchTargets } from "./types.js";
 
 /** One target, with what the other files of this folder know of it. */
 export interface Target {
-  readonly node: WatchTarget;
+  node: WatchTarget;
   /** Null for a virtual one. */
-  readonly element: Element | null;
+  element: Element | null;
   /** What a predictor calls it: unlike ids of users, never the same as another one's. */
   readonly key: string;
   settings: TargetSettings;
   /** Presence: whether it is on the screen. */
   visible: boolean;
-  /** Layout: whether it can be pointed at by styles and attributes; where; whether it is covered, and when that was found out. */
+  /** Layout: whether its styles were read; whether it can be pointed at by these and its attributes; where; whether covered, found out when. */
+  styled: boolean;
   usable: boolean;
   box: Bounds | null;
   covered: boolean;
@@ -38,7 +39,7 @@ export interface Exchange {
 interface Change {
   readonly settings?: Settings;
   readonly given?: ReadonlySet<WatchTarget>;
-  readonly own?: ReadonlyMap<WatchTarget, TargetSettings>;
+  readonly own?: readonly [WatchTarget, TargetSettings | null];
   /** What was removed before, and is not any more. */
   readonly readmitted?: readonly WatchTarget[];
   /** With it an error is one target's alone. */
@@ -48,10 +49,10 @@ interface Change {
 export class Targets {
   readonly #selector: string | null;
   /** What was removed of a selector's elements. */
-  readonly #removed = new Set<unknown>();
+  readonly #removed = new WeakSet<WatchTarget>();
   #settings: Settings;
   #given: ReadonlySet<WatchTarget>;
-  #own: ReadonlyMap<WatchTarget, TargetSettings> = new Map();
+  readonly #own = new WeakMap<WatchTarget, TargetSettings>();
   #byNode = new Map<unknown, Target>();
   #count = 0;
   /** Whether the document may have other elements by now. */
@@ -104,24 +105,25 @@ export class Targets {
 
   /** Watches these no longer. */
   remove(nodes: readonly WatchTarget[]): Exchange {
-    for (const node of nodes) this.#removed.add(node);
-    return this.change({ given: new Set([...this.#given].filter((node) => !nodes.includes(node))) });
+    const given = new Set(this.#given);
+    for (const node of nodes) {
+      if (this.find(node)) this.#removed.add(node);
+      given.delete(node);
+    }
+    return this.change({ given });
   }
 
   /** Sets what holds for one target; null for what the options have. */
   set(node: WatchTarget, options: unknown): void {
     if (!this.find(node)) throw new WhitherError("unknown-id", "target", "it is not watched");
-    const own = new Map(this.#own);
-    if (options === null) own.delete(node);
-    else own.set(node, readTarget(options, "options"));
-    this.change({ own });
+    this.change({ own: [node, options === null ? null : readTarget(options, "options")] });
   }
 
   /**
    * Finds a live selector's elements again, in the order of the document, and takes in what is to be changed: nothing is where one of
    * the new values is wrong.
    */
-  change({ settings = this.#settings, given = this.#given, own = this.#own, readmitted = [], report }: Change): Exchange {
+  change({ settings = this.#settings, given = this.#given, own, readmitted = [], report }: Change): Exchange {
     const found = this.#selector === null ? [] : query(settings.root, this.#selector);
     const next = new Map<unknown, Target>();
     const resolved = new Map<Target, TargetSettings>();
@@ -130,12 +132,13 @@ export class Targets {
     for (const node of new Set([...found, ...given])) {
       if (this.#removed.has(node) && !readmitted.includes(node)) continue;
       if (isElement(node) && isIgnored(node)) continue;
-      let target = this.find(node);
-      if (!target) added.push((target = this.#make(node)));
+      const existing = this.find(node);
+      const target = existing ?? this.#make(node);
+      if (!existing) added.push(target);
       next.set(node, target);
       try {
-        const known = settings === this.#settings && own === this.#own && !added.includes(target);
-        const one = known ? target.settings : settingsOf(node, settings, own.get(node));
+        const known = existing && settings === this.#settings && own?.[0] !== node;
+        const one = known ? target.settings : settingsOf(node, settings, own?.[0] === node ? own[1] : this.#own.get(node));
         resolved.set(target, one);
         if (one.id === undefined) continue;
         if (ids.has(one.id)) {
@@ -152,7 +155,9 @@ export class Targets {
     const removed = [...this.all].filter(({ node }) => !next.has(node));
     for (const [target, one] of resolved) target.settings = one;
     for (const node of readmitted) this.#removed.delete(node);
-    [this.#byNode, this.#settings, this.#given, this.#own] = [next, settings, given, own];
+    [this.#byNode, this.#settings, this.#given] = [next, settings, given];
+    if (own?.[1]) this.#own.set(own[0], own[1]);
+    else if (own) this.#own.delete(own[0]);
     this.stale = false;
     return { added, removed };
   }
@@ -164,6 +169,7 @@ export class Targets {
       key: String(this.#count++),
       settings: {},
       visible: false,
+      styled: false,
       usable: true,
       box: null,
       covered: false,
@@ -171,6 +177,19 @@ export class Targets {
       meant: -Infinity,
     };
   }
+}
+
+/** What a target is that is no longer watched. */
+const GONE: WatchTarget = { id: "", bounds: () => ({ x: 0, y: 0, width: 0, height: 0 }) };
+
+/** Lets go of the element of a target that is no longer watched: a movement may remember the target. */
+export function release(target: Target): void {
+  target.node = GONE;
+  target.element = null;
+}
+
+export function isGone({ node }: Target): boolean {
+  return node === GONE;
 }
 
 /** What its own options call it, else its `id`. */
@@ -188,7 +207,7 @@ export function readBounds(bounds: Bounds, path: string): Bounds {
   return bounds;
 }
 
-function settingsOf(node: WatchTarget, { target }: Settings, own: TargetSettings | undefined): TargetSettings {
+function settingsOf(node: WatchTarget, { target }: Settings, own: TargetSettings | null | undefined): TargetSettings {
   const given = typeof target === "function" ? readTarget(target(node), "target") : target;
   return { ...(isElement(node) ? null : { id: node.id }), ...given, ...own };
 }

@@ -19,7 +19,7 @@ import { listenToPointers, type Place, type PointerId, type PointerSinks, type S
 import type { Prediction } from "./prediction/prediction.js";
 import { Presence } from "./presence.js";
 import { RESTING, snapshotOf } from "./snapshot.js";
-import { type Exchange, type Target, Targets } from "./targets.js";
+import { type Exchange, release, type Target, Targets } from "./targets.js";
 import type { Probable, Snapshot, TargetOptions, Watcher, WatchOptions, WatchTarget, WatchTargets } from "./types.js";
 
 const dispose: typeof Symbol.dispose = disposeName;
@@ -109,7 +109,7 @@ class PageWatcher implements Watcher, PointerSinks {
       visible: (target) => this.#intents.visible(target),
       listen: (view) => this.#listen(view),
     });
-    this.#take({ added: [...this.#targets.all], removed: [] });
+    this.#presence.watch([...this.#targets.all], []);
     this.#begin();
   }
 
@@ -416,6 +416,7 @@ class PageWatcher implements Watcher, PointerSinks {
       }
     }
     this.#prediction?.forget(removed);
+    removed.forEach(release);
   }
 
   /** What holds for targets may have changed. */

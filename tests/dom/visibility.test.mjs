@@ -2,10 +2,23 @@
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { movement } from "../browser/hand.mjs";
-import { GOAL, hosted, open, RIVALS, START } from "./aim.mjs";
+import { GOAL, hosted, open, RIVALS, START, STYLE } from "./aim.mjs";
 import { mouse, nextFrame, REST } from "./support.mjs";
 
 const TARGET = '<button class="target at" id="target"></button>';
+
+/** The target in an iframe. */
+const FRAMED = {
+  body: '<iframe id="around" src="inner.html" class="place" style="border: 0; left: 650px; top: 300px; width: 100px; height: 100px"></iframe>',
+  pages: {
+    "inner.html": `<!doctype html><style>body { margin: 0 }</style>${STYLE}
+      <button class="target place" id="target" style="left: 20px; top: 20px"></button>`,
+  },
+  first: `if (around.contentDocument.readyState !== "complete" || around.contentDocument.URL === "about:blank")
+      await new Promise((resolve) => around.addEventListener("load", resolve));
+    window.kept = around.contentDocument.getElementById("target");`,
+  watched: '[...document.querySelectorAll(".target"), kept]',
+};
 
 /** How the target vanishes and comes back: JavaScript that runs on the page. */
 const vanishing = {
@@ -75,6 +88,21 @@ const vanishing = {
     body: `<div id="around">${TARGET}</div>`,
     change: ['around.style.contentVisibility = "hidden"', 'around.style.contentVisibility = ""'],
   },
+  "in an iframe that is hidden": {
+    ...FRAMED,
+    change: ['around.style.visibility = "hidden"', 'around.style.visibility = ""'],
+  },
+  "in an iframe that is covered": {
+    ...FRAMED,
+    body: `${FRAMED.body}<div id="cover" class="place" hidden style="left: 640px; top: 290px; width: 120px; height: 120px; background: #ddd"></div>`,
+    change: ["cover.hidden = false", "cover.hidden = true"],
+  },
+  "in an iframe behind a modal dialog": {
+    ...FRAMED,
+    body: `${FRAMED.body}<dialog id="dialog" style="width: 100px; margin-top: 500px">A dialog</dialog>`,
+    change: ["dialog.showModal()", "dialog.close()"],
+    rivals: false,
+  },
   "out of the document": ["window.kept = target; kept.remove()", "document.body.append(kept)"],
   "not enabled any more": ["watcher.set(target, { enabled: false })", "watcher.set(target, null)"],
 };
@@ -128,9 +156,9 @@ describe("visibility", () => {
   }
 
   for (const [name, given] of Object.entries(vanishing)) {
-    const { body, head, change, rivals = true } = Array.isArray(given) ? { body: TARGET, change: given } : given;
+    const { body, change, rivals = true, ...more } = Array.isArray(given) ? { body: TARGET, change: given } : given;
     it(`vanishes and comes back: ${name}`, async () => {
-      const { page, close } = await open(site, (rivals ? RIVALS : "") + body, { head });
+      const { page, close } = await open(site, (rivals ? RIVALS : "") + body, more);
       const hand = await mouse(page);
       await hand.play([way[0]]);
       await hand.rest(REST);

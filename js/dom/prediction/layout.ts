@@ -16,17 +16,14 @@ import type { Bounds, VirtualTarget } from "../types.js";
 /** Above this probability it is worth finding out whether something covers a target. */
 const WORTH = 0.01;
 
-/** So many targets are looked up in a frame: what is at a place costs up to 225 microseconds. */
+/** So many targets are looked up in a round: what is at a place costs up to 225 microseconds. */
 const LOOKED_UP = 12;
 
-/** Milliseconds after which it is found out again. */
+/** Milliseconds after which it is found out again, of one target in a round. */
 const OUTDATED = 250;
 
 /** So many targets are probed in a frame besides the most probable ones. */
 const PROBED = 4;
-
-/** Milliseconds after which all are read again in a movement, probed or not. */
-const REREAD = 500;
 
 /** Where a target is looked up: at its centre and, where that is covered, nearer to its corners (shares of its size). */
 const PLACES = [
@@ -37,13 +34,22 @@ const PLACES = [
   [0.2, 0.8],
 ] as const;
 
+/** What in a document can be pointed at. */
+interface Reach {
+  /** Only what is in these, if there are any. */
+  readonly modals: readonly Element[];
+  /** Whether what frames the document can be. */
+  readonly isUsable: boolean;
+}
+
 export class Layout {
   readonly #platform: Platform;
   readonly #surface: Surface;
   readonly #targets: Targets;
-  readonly #frames = new Map<Window, Frame>();
   readonly #presence: Presence;
-  #read = -Infinity;
+  /** Where the viewports of framed windows are, as last read. */
+  readonly #frames = new Map<Window, Frame>();
+  #documents = new WeakMap<Document, Reach>();
   #probe = 0;
   readonly #covered = new Set<Target>();
   #active: readonly Target[] = [];
@@ -87,6 +93,11 @@ export class Layout {
     this.#stale = true;
   }
 
+  /** Whether places of a window can be brought into the main one without reading anything. */
+  knows(view: Window): boolean {
+    return view === this.#platform.window || this.#frames.has(view);
+  }
+
   /** A place of a window's viewport in the main window's: as it was when the layout was last read. */
   toMain<P extends { readonly x: number; readonly y: number }>(view: Window, place: P): P {
     if (view === this.#platform.window) return place;
@@ -101,7 +112,7 @@ export class Layout {
    * @param reach - Whether hitSlop counts.
    */
   at(place: Place, found: readonly Target[], reach: boolean): readonly Target[] {
-    if (this.active.length === 0 || this.#boxed.length === 0) return found;
+    if (this.active.length === 0 || this.#boxed.length === 0 || !this.knows(place.view)) return found;
     const main = this.toMain(place.view, place);
     const inside = this.#boxed.filter((target) => !found.includes(target) && isInside(main, target, reach));
     const inner = inside.filter((target) => isPathless(target) && isOnPath(target, place.path));
@@ -111,38 +122,30 @@ export class Layout {
   /** A place of the main window's viewport, with the elements there, the innermost first. */
   placeAt({ x, y }: { readonly x: number; readonly y: number }): Place {
     const path: Element[] = [];
-    let at = this.#surface.topmost(this.#platform.window.document, x, y);
-    for (let view = innerOf(at); view; ) {
-      const frame = this.#frame(view);
-      const inner = this.#surface.topmost(view.document, (x - frame.x) / frame.across, (y - frame.y) / frame.down);
-      if (!inner) break;
-      at = inner;
-      view = innerOf(at);
-    }
-    for (; at; at = at.parentElement ?? hostOf(at.getRootNode())) path.push(at);
+    for (let at = this.#topmost(x, y); at; at = at.parentElement ?? hostOf(at.getRootNode())) path.push(at);
     return { path, view: this.#platform.window, x, y };
   }
 
-  /** The one phase of reading, at the beginning of a frame. `leading` are the most probable targets; gives whether anything changed. */
-  read(leading: readonly Target[]): boolean {
+  /**
+   * The one phase of reading, at the beginning of a frame; gives whether anything changed.
+   *
+   * @param begun - Whether a movement has begun: then nothing is left to probes.
+   * @param leading - The most probable targets.
+   */
+  read(begun: boolean, leading: readonly Target[]): boolean {
     const now = this.#platform.now();
     const { changes } = this.#presence;
     for (const target of this.#covered) if (now - target.checked >= OUTDATED) this.#doubt(target);
-    if (!changes.moved && now - this.#read < REREAD && !this.#probed(leading)) return this.#stale;
-    this.#read = now;
-    this.#frames.clear();
+    if (!changes.moved && !begun && !this.#probed(leading)) return this.#stale;
+    this.#reframe();
     if (changes.restyled) this.#restyle();
     for (const target of this.#targets.all) this.#measure(target);
     changes.moved = changes.restyled = false;
     return this.#stale;
   }
 
-  /**
-   * Finds out which of the probable targets are covered.
-   *
-   * @returns whether all of those that are worth it have been looked up.
-   */
-  uncover(active: readonly Target[], probabilities: Float64Array): boolean {
+  /** Finds out which of the probable targets are covered. */
+  uncover(active: readonly Target[], probabilities: Float64Array): void {
     const now = this.#platform.now();
     const worth: [Target, number][] = [];
     for (let i = 0; i < active.length; i++) {
@@ -150,13 +153,9 @@ export class Layout {
       if (probability > WORTH) worth.push([active[i] as Target, probability]);
     }
     worth.sort(([, a], [, b]) => b - a);
-    let lookedUp = 0;
-    for (const [target] of worth) {
-      if (!target.element || now - target.checked < OUTDATED) continue;
-      if (lookedUp++ === LOOKED_UP) return false;
-      this.#look(target, now);
-    }
-    return true;
+    const due = worth.flatMap(([target]) => (target.element && now - target.checked >= OUTDATED ? target : []));
+    const unknown = due.filter(({ checked }) => checked === -Infinity);
+    for (const target of unknown.length > 0 ? unknown.slice(0, LOOKED_UP) : due.slice(0, 1)) this.#look(target, now);
   }
 
   #frame(view: Window): Frame {
@@ -165,16 +164,37 @@ export class Layout {
     return frame;
   }
 
-  /** Whether one of the most probable targets, or of some others in turn, is not where it was. */
+  /** Reads again where framed windows are; gives whether one of them has moved. */
+  #reframe(): boolean {
+    let moved = false;
+    for (const [view, was] of this.#frames) {
+      // its iframe is gone
+      if (view.closed) this.#frames.delete(view);
+      else {
+        const is = this.#surface.frameOf(view);
+        moved ||= is.x !== was.x || is.y !== was.y || is.across !== was.across || is.down !== was.down;
+        this.#frames.set(view, is);
+      }
+    }
+    return moved;
+  }
+
+  /** Whether one of the most probable targets, of some others in turn or of the framed windows is not where it was. */
   #probed(leading: readonly Target[]): boolean {
+    if (this.#reframe()) return true;
     const { active } = this;
     const some = Array.from({ length: Math.min(PROBED, active.length) }, () => active[this.#probe++ % active.length] as Target);
     return [...leading, ...some].some((target) => this.#measure(target));
   }
 
-  /** Reads where a target is; gives whether it has moved. */
+  /** Reads where a target is, and whether it can be pointed at if that is not known; gives whether it has moved. */
   #measure(target: Target): boolean {
     const was = target.box;
+    if (target.visible && !target.styled) {
+      target.styled = true;
+      target.usable = !target.element || this.#isUsable(target.element);
+      this.#doubt(target);
+    }
     const box = target.visible && target.usable ? this.#box(target) : null;
     const same = was && box ? sameBox(was, box) : was === box;
     if (same) return false;
@@ -193,16 +213,10 @@ export class Layout {
 
   #box(target: Target): Bounds | null {
     const { element, settings } = target;
-    const bounds = element ? this.#surface.box(element) : this.#bounds(target);
+    const bounds = element ? this.#place(element) : this.#bounds(target);
     if (!bounds) return null;
-    let { x, y, width, height } = bounds;
+    const { x, y, width, height } = bounds;
     if (!(width > 0 && height > 0)) return null;
-    const view = element?.ownerDocument.defaultView;
-    if (view && view !== this.#platform.window) {
-      const { across, down } = this.#frame(view);
-      ({ x, y } = this.toMain(view, { x, y }));
-      [width, height] = [width * across, height * down];
-    }
     const [top, right, bottom, left] = settings.hitSlop ?? [0, 0, 0, 0];
     return { x: x - left, y: y - top, width: width + left + right, height: height + top + bottom };
   }
@@ -220,35 +234,60 @@ export class Layout {
     }
   }
 
+  /** The box of an element in the main window. */
+  #place(element: Element): Bounds {
+    const box = this.#surface.box(element);
+    const view = element.ownerDocument.defaultView;
+    if (!view || view === this.#platform.window) return box;
+    const { across, down } = this.#frame(view);
+    return { ...this.toMain(view, { x: box.x, y: box.y }), width: box.width * across, height: box.height * down };
+  }
+
   #restyle(): void {
-    const modals = new Map<Document, Element[]>();
-    this.#stale = true;
-    for (const target of this.#targets.all) {
-      const { element, visible } = target;
-      this.#doubt(target);
-      if (!element) target.usable = true;
-      else if (visible) {
-        const document = element.ownerDocument;
-        let open = modals.get(document);
-        if (!open) modals.set(document, (open = this.#surface.modals(document)));
-        const outside = open.length > 0 && !open.some((modal) => contains(modal, element));
-        target.usable = element.isConnected && !outside && this.#surface.isUsable(element);
-      }
+    this.#documents = new WeakMap();
+    for (const target of this.#targets.all) target.styled = false;
+  }
+
+  #isUsable(element: Element): boolean {
+    const { modals, isUsable } = this.#reach(element.ownerDocument);
+    const isInside = modals.length === 0 || modals.some((modal) => contains(modal, element));
+    return isUsable && isInside && element.isConnected && this.#surface.isUsable(element);
+  }
+
+  #reach(document: Document): Reach {
+    let reach = this.#documents.get(document);
+    if (!reach) {
+      const host = hostOf(document);
+      reach = { modals: this.#surface.modals(document), isUsable: !host || this.#isUsable(host) };
+      this.#documents.set(document, reach);
     }
+    return reach;
   }
 
   #look(target: Target, now: number): void {
     target.checked = now;
     const element = target.element as Element;
-    const { x, y, width, height } = this.#surface.box(element);
+    const { x, y, width, height } = this.#place(element);
     const covered = PLACES.every(([across, down]) => {
-      const found = this.#surface.topmost(element.ownerDocument, x + across * width, y + down * height);
+      const found = this.#topmost(x + across * width, y + down * height);
       return found !== null && !belongs(found, element);
     });
     if (!covered) return;
     target.covered = true;
     this.#covered.add(target);
     this.#stale = true;
+  }
+
+  /** The innermost element at a place of the main window, in iframes too. */
+  #topmost(x: number, y: number): Element | null {
+    let at = this.#surface.topmost(this.#platform.window.document, x, y);
+    for (let view = innerOf(at); view; view = innerOf(at)) {
+      const frame = this.#frame(view);
+      const inner = this.#surface.topmost(view.document, (x - frame.x) / frame.across, (y - frame.y) / frame.down);
+      if (!inner) break;
+      at = inner;
+    }
+    return at;
   }
 }
 

@@ -5,8 +5,7 @@
  */
 import type { Hand, Meant } from "../hand.js";
 import type { Outcome } from "../ledger.js";
-import { idOf, type Target } from "../targets.js";
-import type { WatchTarget } from "../types.js";
+import { idOf, isGone, type Target } from "../targets.js";
 import type { Movement } from "./movements.js";
 
 /** A press with what came of the movement that led to it. */
@@ -44,18 +43,22 @@ export function outcomeOf(
 
 /** Judges what was meant before a press on `pressed`: what is meant at the press comes too late. */
 function judge(meant: readonly Meant[], pressed: Target, time: number): Pick<Outcome, "verdict" | "mistaken" | "lead"> {
-  let mistaken: WatchTarget | null = null;
+  let mistaken: Target | null = null;
   let since: number | null = null;
   for (const each of meant) {
     if (each.time >= time) break;
     if (each.target === pressed) since ??= each.time;
     else {
-      mistaken ??= each.target.node;
+      mistaken ??= each.target;
       since = null;
     }
   }
   const verdict = mistaken ? "wrong" : since !== null ? "right" : "unsure";
-  return { verdict, mistaken, lead: since === null ? 0 : (time - since) / 1000 };
+  return {
+    verdict,
+    mistaken: mistaken && !isGone(mistaken) ? mistaken.node : null,
+    lead: since === null ? 0 : (time - since) / 1000,
+  };
 }
 
 /** A line that `npm run evaluate` and `fit` read; null where the target could not have been pressed. */

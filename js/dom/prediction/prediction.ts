@@ -54,6 +54,8 @@ export class Prediction {
   readonly #engine: Engine;
   readonly #decoration = new Decoration();
   readonly #tracks = new Map<Hand, Track>();
+  /** What is done in the next frame: samples of windows of which it is not known yet where they are. */
+  readonly #waiting = new Map<Hand, (() => void)[]>();
   #shown: Track | null = null;
   #leading: readonly Target[] = [];
   #posterior: Posterior | null = null;
@@ -66,6 +68,15 @@ export class Prediction {
 
   /** Takes samples in a window's viewport, of a pointer that was over these targets before; gives whether there was something to observe. */
   moved(hand: Hand, samples: readonly Sample[], view: Window, over: readonly Target[], now: number): boolean {
+    const waiting = this.#waiting.get(hand);
+    if (waiting || !this.#layout.knows(view)) {
+      this.#waiting.set(hand, [...(waiting ?? []), () => this.#add(hand, samples, view, over, now)]);
+      return true;
+    }
+    return this.#add(hand, samples, view, over, now);
+  }
+
+  #add(hand: Hand, samples: readonly Sample[], view: Window, over: readonly Target[], now: number): boolean {
     let track = this.#tracks.get(hand);
     if (!track) {
       track = new Track(hand, new PointerPosterior(this.#engine));
@@ -100,11 +111,13 @@ export class Prediction {
 
   /** A pointer's movement is over; what follows is another one. */
   end(hand: Hand): void {
+    this.#waiting.delete(hand);
     this.#tracks.get(hand)?.end();
   }
 
   /** A pointer is gone. */
   drop(hand: Hand): void {
+    this.#waiting.delete(hand);
     const track = this.#tracks.get(hand);
     if (!track) return;
     track.end();
@@ -117,6 +130,8 @@ export class Prediction {
   /** A frame: reads the layout and computes the posteriors; gives whether another one is needed. */
   draw(): boolean {
     const { platform, settings, intents, presence, scrolled } = this.#parts;
+    for (const runs of this.#waiting.values()) for (const run of runs) run();
+    this.#waiting.clear();
     if (presence.changes.scrolled) {
       presence.changes.scrolled = false;
       for (const { hand } of this.#tracks.values()) {
@@ -127,7 +142,8 @@ export class Prediction {
     for (const track of this.#tracks.values()) track.restAfter(settings().rest, platform.now());
     const moving = [...this.#tracks.values()].filter((track) => track.moving);
     if (moving.length === 0) return false;
-    const changed = this.#layout.read(this.#leading);
+    const begun = moving.some((track) => !track.known);
+    const changed = this.#layout.read(begun, this.#leading);
     for (const track of moving) {
       if (changed || track.fresh || !track.known) this.#compute(track);
       const best = track.posterior.best();

@@ -38,9 +38,9 @@ export function closest(element: Element, selector: string): Element | null {
   return null;
 }
 
-/** Whether a node is in the tree of another one, in a shadow tree there too. */
+/** Whether a node is in the tree of another one, in a shadow tree or an iframe there too. */
 export function contains(ancestor: Node, node: Node): boolean {
-  for (let at: Node | null = node; at; at = at.parentNode ?? (at as ShadowRoot).host ?? null) if (at === ancestor) return true;
+  for (let at: Node | null = node; at; at = at.parentNode ?? hostOf(at)) if (at === ancestor) return true;
   return false;
 }
 
