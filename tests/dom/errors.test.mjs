@@ -240,6 +240,26 @@ describe("errors", () => {
     await close();
   });
 
+  it("go to onError once where the model refuses its constants, and every other reason goes on", async () => {
+    const { page, close } = await open(site, ROW, {
+      script: `window.watcher = record("button", { constants: { motion: { nois: 3 } } }); await watcher.ready; await frames(2);`,
+    });
+    await page.mouse.move(60, 600);
+    for (let step = 0; step <= 10; step += 1) await page.mouse.move(60 + 29 * step, 600 - 25 * step);
+    await page.waitForFunction(() => log.some(({ kind }) => kind === "intent"));
+    const [intent] = await logged(page, "intent");
+    assert.deepEqual([intent.target, intent.reason], ["c", "hover"]);
+    assert.deepEqual(
+      (await logged(page, "error")).map(({ code, path }) => [code, path]),
+      [["unknown-key", "motion.nois"]],
+    );
+    await page.evaluate(() => watcher.update({ constants: { motion: { noise: 700 } } }));
+    for (let step = 0; step <= 10; step += 1) await page.mouse.move(350 + 29 * step, 350 + 25 * step);
+    await nextFrame(page);
+    assert.notEqual(await page.evaluate(() => watcher.best), null);
+    await close();
+  });
+
   describe("of callbacks", () => {
     const throwing = `(name) => () => { throw new RangeError("from " + name); }`;
 

@@ -16,6 +16,8 @@ export class Engine {
   #generation = 0;
   #list: readonly PredictedTarget[] = [];
   #listed: readonly Target[] | null = null;
+  /** The generation in which no predictor could be made. */
+  #refused = -1;
 
   /** `core` makes predictors where the options do not. */
   constructor(settings: () => Settings, core: MakePredictor) {
@@ -34,12 +36,17 @@ export class Engine {
     for (const predictor of this.#idle.splice(0)) predictor.free();
   }
 
-  /** A predictor with these targets. */
-  borrow(targets: readonly PredictedTarget[]): Predictor {
+  /** A predictor with these targets; null where the options have constants that it refuses, with an error the first time. */
+  borrow(targets: readonly PredictedTarget[]): Predictor | null {
+    if (this.#refused === this.#generation) return null;
     const { none, constants, predictor } = this.#settings();
     const idle = this.#idle.pop();
     idle?.setTargets(targets);
-    return idle ?? (predictor ?? this.#core)(targets, { none, constants });
+    if (idle) return idle;
+    this.#refused = this.#generation;
+    const made = (predictor ?? this.#core)(targets, { none, constants });
+    this.#refused = -1;
+    return made;
   }
 
   /** Takes back a predictor that was made in a generation. */
@@ -96,11 +103,12 @@ export class PointerPosterior {
     return this.#predictor;
   }
 
-  /** Observes what is new of a movement, and computes the posterior. */
-  compute(movement: Movement, active: readonly Target[], list: readonly PredictedTarget[]): void {
+  /** Observes what is new of a movement, and computes the posterior; gives whether there is one. */
+  compute(movement: Movement, active: readonly Target[], list: readonly PredictedTarget[]): boolean {
     if (this.#predictor && this.#generation !== this.#engine.generation) this.free();
     if (!this.#predictor) {
       this.#predictor = this.#engine.borrow(list);
+      if (!this.#predictor) return false;
       this.#generation = this.#engine.generation;
       this.#movement = null;
     } else if (this.#targets !== list) this.#predictor.setTargets(list);
@@ -120,6 +128,7 @@ export class PointerPosterior {
     }
     predictor.probabilities(this.probabilities);
     this.none = predictor.none;
+    return true;
   }
 
   probability(target: Target): number {

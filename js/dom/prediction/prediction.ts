@@ -146,10 +146,12 @@ export class Prediction {
     const changed = this.#layout.read(begun, this.#leading);
     for (const track of moving) {
       if (changed || track.fresh || !track.known) this.#compute(track);
-      const best = track.posterior.best();
-      if (best && track.fresh) track.movement?.note(best, track.posterior.probability(best));
+      const { fresh, known, posterior } = track;
       track.fresh = false;
-      intents.consider(track.hand, track.posterior.targets, track.posterior.probabilities);
+      if (!known) continue;
+      const best = posterior.best();
+      if (best && fresh) track.movement?.note(best, posterior.probability(best));
+      intents.consider(track.hand, posterior.targets, posterior.probabilities);
     }
     return true;
   }
@@ -239,8 +241,8 @@ export class Prediction {
     const presses = (target: Target) => this.ledger.presses(target);
     for (let round = 0; movement && round < ROUNDS; round++) {
       const { active } = this.#layout;
-      posterior.compute(movement, active, this.#engine.list(active, learning, presses));
-      track.known = true;
+      track.known = posterior.compute(movement, active, this.#engine.list(active, learning, presses));
+      if (!track.known) return;
       this.#layout.uncover(active, posterior.probabilities);
       if (this.#layout.active === active) return;
     }
