@@ -34,21 +34,18 @@ export function listenToFocus(
     if (at < 0) return [];
     return direction > 0 ? stops.slice(at + 1, at + 1 + tabs) : stops.slice(Math.max(0, at - tabs), at).reverse();
   };
-  const stops = [
-    platform.listen(view, ["pointerdown"], () => {
+  return platform.listen(view, {
+    pointerdown() {
       pressed = true;
-    }),
-    platform.listen(view, ["keydown"], (event: KeyboardEvent) => {
+    },
+    keydown(event: KeyboardEvent) {
       pressed = false;
       direction = event.key !== "Tab" ? 0 : event.shiftKey ? -1 : 1;
-    }),
-    platform.listen(view, ["focusin"], (event: FocusEvent) => {
+    },
+    focusin(event: FocusEvent) {
       const path = event.composedPath();
       if (!pressed) moved(path, ahead(path[0]));
-    }),
-    platform.listen(view, ["focusout"], () => moved([], [])),
-  ];
-  return () => {
-    for (const stop of stops) stop();
-  };
+    },
+    focusout: () => moved([], []),
+  });
 }

@@ -12,6 +12,9 @@ import type { MakePredictor } from "./types.js";
 /** Ends what was begun. */
 export type Stop = () => void;
 
+/** What is called for each type of event. */
+export type Listeners = Readonly<Record<string, (event: never) => void>>;
+
 /** A watcher of elements that a browser calls back about. */
 export interface Observer {
   observe(node: Node): void;
@@ -38,7 +41,7 @@ export interface Platform {
   /** When the page has nothing else to do. */
   idle(run: () => void): Stop;
   /** Passive, in the capture phase. */
-  listen(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop;
+  listen(target: EventTarget, listeners: Listeners): Stop;
   /** Calls back with elements that appear on the screen or disappear from it, by scrolling and clipping too; null where there is none. */
   visibility(changed: (element: Element, visible: boolean) => void): Observer | null;
   /** Calls back when something changes in the trees of the nodes. */
@@ -79,11 +82,12 @@ export function browser(): Platform | null {
       const idle = requestIdleCallback(run, { timeout: 2000 });
       return () => cancelIdleCallback(idle);
     },
-    listen(target, types, listener) {
+    listen(target, listeners) {
       const options = { passive: true, capture: true };
-      for (const type of types) target.addEventListener(type, listener as EventListener, options);
+      const each = Object.entries(listeners) as [string, EventListener][];
+      for (const [type, listener] of each) target.addEventListener(type, listener, options);
       return () => {
-        for (const type of types) target.removeEventListener(type, listener as EventListener, options);
+        for (const [type, listener] of each) target.removeEventListener(type, listener, options);
       };
     },
     visibility(changed) {

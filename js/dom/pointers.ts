@@ -48,7 +48,8 @@ const TAP = 10;
 const MOUSE = { pointerId: 1, pointerType: "mouse" };
 
 /**
- * Follows the pointers of a window until the returned function is called. `follows` decides which pointers count, and with `raw` samples come at the device's rate, where the browser has such.
+ * Follows the pointers of a window until the returned function is called. `follows` decides which pointers count, and with `raw`
+ * samples come at the device's rate, where the browser has such.
  */
 export function listenToPointers(
   platform: Platform,
@@ -71,71 +72,74 @@ export function listenToPointers(
 
   const move = (event: PointerEvent) => {
     if (!follows(event)) return;
-    if (event.pointerType !== "touch") last = event;
-    const place = placeOf(event);
-    const finger = fingers.get(event.pointerId);
-    // a finger that scrolls the page goes on with raw updates
-    if (event.pointerType === "touch" && !finger) return;
-    if (finger && distance(place, finger.place) > TAP) finger.still = false;
-    // the list may have the event itself or not, and may be empty
-    const samples = [...(event.getCoalescedEvents?.() ?? []), event].map(sampleOf);
-    sinks.moved(event, samples, view, finger ? null : place);
-  };
-  const down = (event: PointerEvent) => {
-    if (!follows(event)) return;
-    const place = placeOf(event);
+    let place: Place | null = placeOf(event);
     if (event.pointerType === "touch") {
-      fingers.set(event.pointerId, { place, still: true });
-      sinks.moved(event, [sampleOf(event)], view, place);
-      sinks.touched(event, place);
-    } else if (event.button === 0) sinks.pressed(event, place);
-  };
-  const up = (event: PointerEvent) => {
-    const finger = fingers.get(event.pointerId);
-    if (!finger) return;
-    fingers.delete(event.pointerId);
-    if (finger.still && distance(placeOf(event), finger.place) <= TAP) sinks.pressed(event, finger.place);
-    else sinks.lost(event.pointerId);
-    sinks.gone(event.pointerId);
-  };
-  const cancel = (event: PointerEvent) => {
-    // a drag goes on with events of its own
-    if (event.pointerId === dragged?.pointerId) return;
-    sinks.lost(event.pointerId);
-    if (fingers.delete(event.pointerId)) sinks.gone(event.pointerId);
-  };
-  const out = (event: PointerEvent) => {
-    // into no other element: out of the window. A frame's pointer goes on in the window around it.
-    if (event.relatedTarget === null && view === platform.window && event.pointerType !== "touch" && !dragged) {
-      sinks.lost(event.pointerId);
-    }
-  };
-  const drag = (event: DragEvent) => {
-    const pointer = (dragged ??= last);
-    if (!follows(pointer)) return;
-    if (event.type === "dragover") sinks.moved(pointer, [sampleOf(event)], view, placeOf(event));
-    if (event.type === "drop") sinks.pressed(pointer, placeOf(event));
-    if (event.type === "drop" || event.type === "dragend") {
+      const finger = fingers.get(event.pointerId);
+      // a finger that scrolls the page goes on with raw updates
+      if (!finger) return;
+      finger.still &&= distance(place, finger.place) <= TAP;
+      // its events go to where it came down
+      place = finger.still ? null : { ...place, path: [] };
+    } else {
+      last = event;
+      // a drag has none of these
       dragged = null;
-      sinks.lost(pointer.pointerId);
     }
+    // the list may have the event itself or not, and may be empty
+    sinks.moved(event, [...(event.getCoalescedEvents?.() ?? []), event].map(sampleOf), view, place);
   };
-  const hide = (event: Event) => {
-    if (event.type === "pagehide" || view.document.hidden) sinks.hidden();
+  const dropped = () => {
+    if (dragged) sinks.lost(dragged.pointerId);
+    dragged = null;
   };
-
-  const stops = [
-    platform.listen(view, raw ? ["pointermove", "pointerrawupdate"] : ["pointermove"], move),
-    platform.listen(view, ["pointerdown"], down),
-    platform.listen(view, ["pointerup"], up),
-    platform.listen(view, ["pointercancel"], cancel),
-    platform.listen(view, ["pointerout"], out),
-    platform.listen(view, ["dragstart", "dragover", "drop", "dragend"], drag),
-    platform.listen(view, ["pagehide", "visibilitychange"], hide),
-  ];
-  return () => {
-    for (const stop of stops) stop();
-  };
+  return platform.listen(view, {
+    pointermove: move,
+    ...(raw && { pointerrawupdate: move }),
+    pointerdown(event: PointerEvent) {
+      if (!follows(event)) return;
+      const place = placeOf(event);
+      if (event.pointerType === "touch") {
+        fingers.set(event.pointerId, { place, still: true });
+        sinks.moved(event, [sampleOf(event)], view, place);
+        sinks.touched(event, place);
+      } else if (event.button === 0) sinks.pressed(event, place);
+    },
+    pointerup(event: PointerEvent) {
+      const finger = fingers.get(event.pointerId);
+      if (!finger) return;
+      fingers.delete(event.pointerId);
+      if (finger.still && distance(placeOf(event), finger.place) <= TAP) sinks.pressed(event, finger.place);
+      else sinks.lost(event.pointerId);
+      sinks.gone(event.pointerId);
+    },
+    pointercancel({ pointerId }: PointerEvent) {
+      // a drag goes on with events of its own
+      if (pointerId === dragged?.pointerId) return;
+      sinks.lost(pointerId);
+      if (fingers.delete(pointerId)) sinks.gone(pointerId);
+    },
+    pointerout({ relatedTarget, pointerType, pointerId }: PointerEvent) {
+      // into no other element: out of the window. A frame's pointer goes on in the window around it.
+      if (!relatedTarget && view === platform.window && pointerType !== "touch" && !dragged) sinks.lost(pointerId);
+    },
+    dragstart() {
+      dragged = last;
+    },
+    dragover(event: DragEvent) {
+      // what comes from another program has no start
+      dragged ??= last;
+      if (follows(dragged)) sinks.moved(dragged, [sampleOf(event)], view, placeOf(event));
+    },
+    drop(event: DragEvent) {
+      if (dragged && follows(dragged)) sinks.pressed(dragged, placeOf(event));
+      dropped();
+    },
+    dragend: dropped,
+    pagehide: () => sinks.hidden(),
+    visibilitychange() {
+      if (view.document.hidden) sinks.hidden();
+    },
+  });
 }
 
 function distance(a: Place, b: Place): number {

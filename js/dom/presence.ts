@@ -100,19 +100,27 @@ export class Presence {
   }
 
   #listenIn(view: Window): Stop {
-    const moved = ({ type }: Event) => {
-      this.changes.scrolled ||= type === "scroll";
+    const resize = () => this.#move();
+    const scroll = () => {
+      this.changes.scrolled = true;
       this.#move();
     };
-    const types = ["scroll", "resize"];
+    const restyled = () => this.outdate();
+    const { visualViewport } = view;
     const stops = [
       this.#sinks.listen(view),
-      this.#platform.listen(view, types, moved),
-      this.#platform.listen(view, ["load", "transitionend", "animationend", "fullscreenchange"], () => this.outdate()),
+      this.#platform.listen(view, {
+        resize,
+        scroll,
+        load: restyled,
+        transitionend: restyled,
+        animationend: restyled,
+        fullscreenchange: restyled,
+      }),
+      visualViewport && this.#platform.listen(visualViewport, { resize, scroll }),
     ];
-    if (view.visualViewport) stops.push(this.#platform.listen(view.visualViewport, types, moved));
     return () => {
-      for (const stop of stops) stop();
+      for (const stop of stops) stop?.();
     };
   }
 

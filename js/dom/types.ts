@@ -40,7 +40,7 @@ export interface Reasons {
   readonly pointer?: boolean | { readonly after: number } | undefined;
   /** A pointer has been over it for so many milliseconds. @defaultValue { after: 130 } */
   readonly hover?: boolean | { readonly after: number } | undefined;
-  /** A mouse or a pen was pressed on it. @defaultValue true */
+  /** A mouse or a pen was pressed on it, or a finger lifted where it came down. @defaultValue true */
   readonly press?: boolean | undefined;
   /** It got the focus, and not from a press. @defaultValue true */
   readonly focus?: boolean | undefined;

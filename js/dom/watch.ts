@@ -314,7 +314,7 @@ class PageWatcher implements Watcher, PointerSinks {
       this.stop();
       return;
     }
-    if (signal) this.#stops.push(this.#platform.listen(signal, ["abort"], () => this.stop()));
+    if (signal) this.#stops.push(this.#platform.listen(signal, { abort: () => this.stop() }));
     this.#presence.listen();
     if (load === "eager") this.#load();
     if (load === "idle") this.#stops.push(this.#platform.idle(this.#load));

@@ -228,6 +228,19 @@ describe("movements", () => {
     assert.ok((await page.evaluate(() => drags)) > 5);
     assert.equal((await read(page)).best?.target, "b");
     await page.mouse.up();
+    await page.evaluate(() => frames(2));
+    assert.deepEqual(
+      (await logged(page, "outcome")).map(({ target, verdict }) => [target, verdict]),
+      [["b", "right"]],
+      "a drop is a press",
+    );
+    // the mouse is followed again: out of the window too
+    await page.mouse.move(400, 400);
+    await page.mouse.move(500, 500);
+    await page.mouse.move(520, 560);
+    assert.equal((await read(page)).moving, true);
+    await page.evaluate(() => point("pointerout", [performance.now(), 520, 560], { pointerId: 1, relatedTarget: null }));
+    assert.equal((await read(page)).moving, false);
     await close();
   });
 

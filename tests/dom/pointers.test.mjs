@@ -350,6 +350,38 @@ describe("pointers", () => {
       await close();
     });
 
+    it("takes a finger that is drawn away from a target for no intent of that", async () => {
+      const { page, close } = await open(site, CORNERS, {
+        ...phone,
+        head: "<style>html { touch-action: none }</style>",
+        script: `window.watcher = record("button", { reasons: { pointer: false } }); await watcher.ready;`,
+      });
+      const { down, move, up } = await finger(page);
+      await down(MIDDLE.a.x, MIDDLE.a.y);
+      for (let step = 1; step <= 4; step += 1) {
+        await sleep(0.01);
+        await move(MIDDLE.a.x + 20 * step, MIDDLE.a.y + 20 * step);
+      }
+      await sleep(0.15);
+      await up();
+      assert.deepEqual([await logged(page, "intent"), await logged(page, "outcome")], [[], []]);
+      await close();
+    });
+
+    it("takes a short tap for an intent as it is lifted", async () => {
+      const { page, close } = await open(site, CORNERS, {
+        ...phone,
+        script: `window.watcher = record("button"); await watcher.ready;`,
+      });
+      await page.touchscreen.tap(MIDDLE.a.x, MIDDLE.a.y);
+      await page.evaluate(() => frames(2));
+      assert.deepEqual(
+        (await logged(page, "intent")).map(({ target, reason, aborted }) => [target, reason, aborted]),
+        [["a", "press", null]],
+      );
+      await close();
+    });
+
     it("follows no raw updates of a finger that scrolls the page", async () => {
       const { page, close } = await open(site, `${buttons(["a", 80, 100])}<div style="height: 3000px"></div>`, {
         ...phone,

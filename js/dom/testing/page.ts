@@ -21,7 +21,7 @@
  * @module
  */
 import type { FindTabStops } from "../focus.js";
-import type { Loaded, Observer, Platform, Stop } from "../platform.js";
+import type { Listeners, Loaded, Observer, Platform, Stop } from "../platform.js";
 import { Prediction } from "../prediction/prediction.js";
 import type { Surface } from "../prediction/surface.js";
 import type { MakePredictor, Watcher, WatchOptions, WatchTargets } from "../types.js";
@@ -159,9 +159,9 @@ export class TestPage implements Platform {
     return this.clock.wait(200, run);
   }
 
-  listen(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop {
-    if (target !== this.window) return listenTo(target, types, listener);
-    const stops = types.map((type) => {
+  listen(target: EventTarget, listeners: Listeners): Stop {
+    if (target !== this.window) return listenTo(target, listeners);
+    const stops = Object.entries(listeners).map(([type, listener]) => {
       const all = this.#listeners.get(type) ?? new Set();
       this.#listeners.set(type, all.add(listener));
       return () => all.delete(listener);
@@ -212,9 +212,10 @@ export class TestPage implements Platform {
 }
 
 /** Of an AbortSignal, say, which is as in a browser. */
-function listenTo(target: EventTarget, types: readonly string[], listener: (event: never) => void): Stop {
-  for (const type of types) target.addEventListener(type, listener as EventListener);
+function listenTo(target: EventTarget, listeners: Listeners): Stop {
+  const each = Object.entries(listeners) as [string, EventListener][];
+  for (const [type, listener] of each) target.addEventListener(type, listener);
   return () => {
-    for (const type of types) target.removeEventListener(type, listener as EventListener);
+    for (const [type, listener] of each) target.removeEventListener(type, listener);
   };
 }
