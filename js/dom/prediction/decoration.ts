@@ -8,7 +8,7 @@ import type { Target } from "../targets.js";
 const PROPERTY = "--probability";
 
 /** Below this nothing is written. */
-const LEAST = 0.0005;
+const LEAST = 0.01;
 
 export class Decoration {
   /** What is written. */

@@ -17,10 +17,11 @@ import type { Bounds, VirtualTarget } from "../types.js";
 const WORTH = 0.01;
 
 /** So many targets are looked up in a round: what is at a place costs up to 225 microseconds. */
-const LOOKED_UP = 12;
+const LOOKED_UP = 6;
 
-/** Milliseconds after which it is found out again, of one target in a round. */
+/** Milliseconds after which that is found out again, and from one target for which it is to the next. */
 const OUTDATED = 250;
+const APART = 100;
 
 /** So many targets are probed in a frame besides the most probable ones. */
 const PROBED = 4;
@@ -51,6 +52,7 @@ export class Layout {
   readonly #frames = new Map<Window, Frame>();
   #documents = new WeakMap<Document, Reach>();
   #probe = 0;
+  #looked = -Infinity;
   readonly #covered = new Set<Target>();
   #active: readonly Target[] = [];
   /** Of these the ones that are at places where no path of an event has them. */
@@ -155,7 +157,8 @@ export class Layout {
     worth.sort(([, a], [, b]) => b - a);
     const due = worth.flatMap(([target]) => (target.element && now - target.checked >= OUTDATED ? target : []));
     const unknown = due.filter(({ checked }) => checked === -Infinity);
-    for (const target of unknown.length > 0 ? unknown.slice(0, LOOKED_UP) : due.slice(0, 1)) this.#look(target, now);
+    const again = now - this.#looked >= APART ? due.slice(0, 1) : [];
+    for (const target of unknown.length > 0 ? unknown.slice(0, LOOKED_UP) : again) this.#look(target, now);
   }
 
   #frame(view: Window): Frame {
@@ -265,7 +268,7 @@ export class Layout {
   }
 
   #look(target: Target, now: number): void {
-    target.checked = now;
+    target.checked = this.#looked = now;
     const element = target.element as Element;
     const { x, y, width, height } = this.#place(element);
     const covered = PLACES.every(([across, down]) => {
@@ -302,8 +305,8 @@ function isActive({ box, covered, settings }: Target): boolean {
 
 /** Whether what is at a place of an element is that element, something in it, something around it, or its label. */
 function belongs(found: Element, element: Element): boolean {
-  const label = closest(found, "label") as HTMLLabelElement | null;
-  return contains(element, found) || contains(found, element) || label?.control === element;
+  if (contains(element, found) || contains(found, element)) return true;
+  return (closest(found, "label") as HTMLLabelElement | null)?.control === element;
 }
 
 /** Whether no path of an event has it: it is virtual, or in a closed shadow tree. */
