@@ -37,8 +37,6 @@ export class Intents {
   readonly #hands: () => Iterable<Hand>;
   readonly #open = new Map<Target, Open>();
   readonly #begun: number[] = [];
-  /** The targets that a pointer has been sure enough of, and since when. */
-  readonly #candidates = new Map<Hand, ReadonlyMap<Target, number>>();
   readonly #running = new Set<Intent>();
   readonly #waiting = new Map<unknown, Stop>();
   /** The focus, and what is at most so many tab stops away from it. */
@@ -58,26 +56,6 @@ export class Intents {
     return [...this.#open.keys()];
   }
 
-  /** A posterior was computed, with so much for each target. */
-  consider(hand: Hand, targets: readonly Target[], probabilities: Float64Array): void {
-    const { reasons, threshold } = this.#settings();
-    const movement = hand.predicted?.movement;
-    const before = this.#candidates.get(hand);
-    const candidates = new Map<Target, number>();
-    this.#candidates.set(hand, candidates);
-    if (!movement || reasons.pointer === null) return;
-    // a finger may be about to scroll the page
-    const after = hand.isTouch ? Math.max(TOUCH, reasons.pointer) : reasons.pointer;
-    const now = this.#platform.now();
-    for (let i = 0; i < targets.length; i++) {
-      const target = targets[i] as Target;
-      if ((probabilities[i] as number) < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
-      const since = before?.get(target) ?? now;
-      candidates.set(target, since);
-      if (now - since >= after) this.#begin(target, "pointer", movement, hand);
-    }
-  }
-
   /** What a pointer is over has changed, by its own movement or by scrolling. */
   over(hand: Hand, by: "hover" | "scroll"): void {
     const { hover, scroll } = this.#settings().reasons;
@@ -85,7 +63,7 @@ export class Intents {
     this.#cancel(hand);
     if (!target || hand.isTouch || hover === null || (by === "scroll" && !scroll)) return;
     this.#wait(hand, hover, () => {
-      if (hand.over?.[0] === target) this.#begin(target, by, hand.scope, hand);
+      if (hand.over?.[0] === target) this.begin(target, by, hand.scope, hand);
     });
   }
 
@@ -93,7 +71,7 @@ export class Intents {
   touch(hand: Hand, target: Target): void {
     if (!this.#settings().reasons.touch) return;
     this.#wait(hand, TOUCH, () => {
-      if (hand.isOver(target)) this.#begin(target, "touch", hand.scope, hand);
+      if (hand.isOver(target)) this.begin(target, "touch", hand.scope, hand);
     });
   }
 
@@ -101,7 +79,7 @@ export class Intents {
   press(hand: Hand, targets: readonly Target[]): void {
     this.forget(hand);
     const [target] = targets;
-    if (target && this.#settings().reasons.press) this.#begin(target, "press", hand.scope, hand);
+    if (target && this.#settings().reasons.press) this.begin(target, "press", hand.scope, hand);
     for (const each of targets) this.#end(each, true);
   }
 
@@ -111,9 +89,9 @@ export class Intents {
     this.#focused = new Set(ahead);
     if (target) {
       this.#focused.add(target);
-      if (this.#settings().reasons.focus) this.#begin(target, "focus", this.#focus);
+      if (this.#settings().reasons.focus) this.begin(target, "focus", this.#focus);
     }
-    for (const each of ahead) this.#begin(each, "keyboard", this.#focus);
+    for (const each of ahead) this.begin(each, "keyboard", this.#focus);
     this.review();
   }
 
@@ -122,7 +100,7 @@ export class Intents {
     const { viewport } = this.#settings().reasons;
     this.#cancel(target);
     if (target.visible && viewport !== null) {
-      this.#wait(target, viewport, () => this.#begin(target, "viewport", this.#viewport));
+      this.#wait(target, viewport, () => this.begin(target, "viewport", this.#viewport));
     }
   }
 
@@ -142,7 +120,6 @@ export class Intents {
   /** A pointer is gone, or its movement. */
   forget(hand: Hand): void {
     this.#cancel(hand);
-    this.#candidates.delete(hand);
   }
 
   /** Takes the marks off elements. */
@@ -154,7 +131,6 @@ export class Intents {
   clear(): void {
     for (const stop of this.#waiting.values()) stop();
     this.#waiting.clear();
-    this.#candidates.clear();
     for (const target of this.targets) this.#end(target, false);
   }
 
@@ -170,7 +146,7 @@ export class Intents {
     return false;
   }
 
-  #begin(target: Target, reason: Reason, scope: Scope, hand?: Hand): void {
+  begin(target: Target, reason: Reason, scope: Scope, hand?: Hand): void {
     const { reactivate, limit } = this.#settings();
     const now = this.#platform.now();
     if (this.#open.has(target) || target.settings.enabled === false) return;

@@ -1,34 +1,22 @@
 /**
  * What the browser reports of the targets: that they appear on the screen or disappear from it, that something in their trees has
- * changed, that something was scrolled. Nothing is read here.
+ * changed; and in which windows they are. Nothing is read here.
  *
  * @module
  */
 import type { Observer, Platform, Stop } from "./platform.js";
 import type { Target, Targets } from "./targets.js";
 
-/** What may have changed. */
-export interface Changes {
-  /** Elements may have moved. */
-  moved: boolean;
-  /** Styles and attributes may be others, too. */
-  restyled: boolean;
-  /** What is under a resting pointer may be something else. */
-  scrolled: boolean;
-}
-
 export interface PresenceSinks {
-  /** There is something to look at in the next frame. */
-  changed(): void;
+  /** Something has changed in the trees in which targets are. */
+  changed(records: readonly MutationRecord[]): void;
   /** A target appeared on the screen, or disappeared from it. */
   visible(target: Target): void;
-  /** Listens to what else matters in a window that has targets. */
+  /** Listens to what matters in a window that has targets. */
   listen(view: Window): Stop;
 }
 
 export class Presence {
-  /** Since these were last set to false. */
-  readonly changes: Changes = { moved: true, restyled: true, scrolled: false };
   readonly #platform: Platform;
   readonly #targets: Targets;
   readonly #sinks: PresenceSinks;
@@ -47,15 +35,8 @@ export class Presence {
       target.visible = isVisible;
       target.styled = false;
       sinks.visible(target);
-      this.#move();
     });
-    this.#mutations = platform.mutations((records) => this.#note(records));
-  }
-
-  /** Everything may have changed. */
-  outdate(): void {
-    this.changes.restyled = true;
-    this.#move();
+    this.#mutations = platform.mutations((records) => sinks.changed(records));
   }
 
   /** Takes in that targets came and went. */
@@ -68,7 +49,6 @@ export class Presence {
     const roots = this.#targets.roots();
     roots.add(this.#platform.window.document);
     if (roots.size !== this.#roots.size || [...roots].some((root) => !this.#roots.has(root))) this.#observe(roots);
-    this.outdate();
   }
 
   /** Listens again: with other options. */
@@ -76,7 +56,7 @@ export class Presence {
     this.deafen();
     for (const root of this.#roots) {
       const view = (root.ownerDocument ?? (root as Document)).defaultView;
-      if (view && !this.#windows.has(view)) this.#windows.set(view, this.#listenIn(view));
+      if (view && !this.#windows.has(view)) this.#windows.set(view, this.#sinks.listen(view));
     }
   }
 
@@ -98,47 +78,4 @@ export class Presence {
     for (const root of roots) this.#mutations?.observe(root);
     if (listening) this.listen();
   }
-
-  #listenIn(view: Window): Stop {
-    const resize = () => this.#move();
-    const scroll = () => {
-      this.changes.scrolled = true;
-      this.#move();
-    };
-    const restyled = () => this.outdate();
-    const { visualViewport } = view;
-    const stops = [
-      this.#sinks.listen(view),
-      this.#platform.listen(view, {
-        resize,
-        scroll,
-        load: restyled,
-        transitionend: restyled,
-        animationend: restyled,
-        fullscreenchange: restyled,
-      }),
-      visualViewport && this.#platform.listen(visualViewport, { resize, scroll }),
-    ];
-    return () => {
-      for (const stop of stops) stop?.();
-    };
-  }
-
-  #note(records: readonly MutationRecord[]): void {
-    if (records.every(isDecoration)) return;
-    this.#targets.stale = true;
-    this.outdate();
-  }
-
-  #move(): void {
-    this.changes.moved = true;
-    this.#sinks.changed();
-  }
-}
-
-/** Whether it is what a watcher, this one or another, wrote on an element. */
-function isDecoration({ attributeName, oldValue, target }: MutationRecord): boolean {
-  if (attributeName !== "style") return attributeName === "data-predicted";
-  const other = (style: string | null) => style?.replace(/--probability:[^;]*;?/, "").trim() || null;
-  return other(oldValue) === other((target as Element).getAttribute("style"));
 }

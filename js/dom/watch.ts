@@ -6,7 +6,7 @@
 import type { Gaussian } from "../core/gaussian.js";
 import { dispose as disposeName } from "../core/lifetime.js";
 import type { Remaining } from "../core/predictor.js";
-import { notNegative, refuse } from "../core/read.js";
+import { refuse } from "../core/read.js";
 import { Calls } from "./calls.js";
 import { listenToFocus } from "./focus.js";
 import { Hand } from "./hand.js";
@@ -105,8 +105,15 @@ class PageWatcher implements Watcher, PointerSinks {
       failed: this.#calls.report,
     });
     this.#presence = new Presence(platform, this.#targets, {
-      changed: () => this.#request(),
-      visible: (target) => this.#intents.visible(target),
+      changed: (records) => {
+        if (this.#prediction?.changes.isDecoration(records)) return;
+        this.#targets.stale = true;
+        this.#outdate();
+      },
+      visible: (target) => {
+        this.#intents.visible(target);
+        this.#prediction?.changes.move();
+      },
       listen: (view) => this.#listen(view),
     });
     this.#presence.watch([...this.#targets.all], []);
@@ -136,13 +143,12 @@ class PageWatcher implements Watcher, PointerSinks {
   }
 
   forecast(seconds: number): Gaussian | null {
-    return this.#prediction?.forecast(notNegative(seconds, "seconds")) ?? null;
+    return this.#prediction?.forecast(seconds) ?? null;
   }
 
   path(node: WatchTarget, seconds: readonly number[]): Float64Array {
     const target = this.#targets.find(node);
-    const later = Array.from(seconds, (each, i) => notNegative(each, `seconds[${i}]`));
-    return (target && this.#prediction?.path(target, later)) ?? new Float64Array(0);
+    return (target && this.#prediction?.path(target, seconds)) ?? new Float64Array(0);
   }
 
   set(node: WatchTarget, options: TargetOptions | null): void {
@@ -331,6 +337,7 @@ class PageWatcher implements Watcher, PointerSinks {
       listenToPointers(this.#platform, view, this, ({ pointerType }) => pointers.includes(pointerType), raw),
       listenToFocus(this.#platform, view, reasons.keyboard ?? 0, (path, ahead) => this.#focused(path, ahead), this.#calls.report),
     ];
+    if (this.#prediction) stops.push(this.#prediction.changes.listen(view));
     return () => {
       for (const stop of stops) stop();
     };
@@ -354,13 +361,14 @@ class PageWatcher implements Watcher, PointerSinks {
       platform: this.#platform,
       surface,
       targets: this.#targets,
-      presence: this.#presence,
       settings: () => this.#settings,
       intents: this.#intents,
+      changed: () => this.#request(),
       failed: this.#calls.report,
       scrolled: (hand, place) => this.#over(hand, this.#at(place), "scroll"),
     });
     this.#prediction = prediction;
+    if (this.#state === "running") this.#presence.listen();
     for (const run of this.#kept?.splice(0) ?? []) run(prediction);
     this.#request();
   }
@@ -417,12 +425,15 @@ class PageWatcher implements Watcher, PointerSinks {
     }
     this.#prediction?.forget(removed);
     removed.forEach(release);
+    this.#prediction?.changes.outdate();
+    this.#request();
   }
 
   /** What holds for targets may have changed. */
   #outdate(): void {
     this.#prediction?.relist();
-    this.#presence.outdate();
+    this.#prediction?.changes.outdate();
     this.#intents.review();
+    this.#request();
   }
 }

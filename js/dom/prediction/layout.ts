@@ -6,8 +6,8 @@
  * @module
  */
 import type { Place } from "../pointers.js";
-import type { Presence } from "../presence.js";
 import { attempt, hostOf, type Platform } from "../platform.js";
+import type { Changes } from "./changes.js";
 import type { Parts } from "./prediction.js";
 import { closest, contains, type Frame, type Surface } from "./surface.js";
 import { readBounds, type Target, type Targets } from "../targets.js";
@@ -47,7 +47,7 @@ export class Layout {
   readonly #platform: Platform;
   readonly #surface: Surface;
   readonly #targets: Targets;
-  readonly #presence: Presence;
+  readonly #changes: Changes;
   /** Where the viewports of framed windows are, as last read. */
   readonly #frames = new Map<Window, Frame>();
   #documents = new WeakMap<Document, Reach>();
@@ -62,13 +62,12 @@ export class Layout {
   readonly #wrong = new Set<Target>();
   #stale = true;
 
-  constructor({ platform, surface, targets, presence, failed }: Parts) {
+  constructor({ platform, surface, targets, failed }: Parts, changes: Changes) {
     this.#failed = failed;
     this.#platform = platform;
     this.#surface = surface;
     this.#targets = targets;
-    this.#presence = presence;
-    presence.changes.moved = presence.changes.restyled = true;
+    this.#changes = changes;
   }
 
   /** The targets that can be pointed at now. The same list until that changes, or one of them moves. */
@@ -136,7 +135,7 @@ export class Layout {
    */
   read(begun: boolean, leading: readonly Target[]): boolean {
     const now = this.#platform.now();
-    const { changes } = this.#presence;
+    const changes = this.#changes;
     for (const target of this.#covered) if (now - target.checked >= OUTDATED) this.#doubt(target);
     if (!changes.moved && !begun && !this.#probed(leading)) return this.#stale;
     this.#reframe();

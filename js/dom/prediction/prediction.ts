@@ -4,16 +4,17 @@
  * @module
  */
 import type { Gaussian } from "../../core/gaussian.js";
+import { notNegative } from "../../core/read.js";
 import type { Hand } from "../hand.js";
 import type { Intents } from "../intent.js";
 import type { Outcome } from "../ledger.js";
 import type { Settings } from "../options.js";
 import type { Platform } from "../platform.js";
 import type { Place, Sample } from "../pointers.js";
-import type { Presence } from "../presence.js";
 import type { Posterior } from "../snapshot.js";
 import { idOf, type Target, type Targets } from "../targets.js";
 import type { MakePredictor, Probable } from "../types.js";
+import { Changes } from "./changes.js";
 import { Decoration } from "./decoration.js";
 import { Engine, PointerPosterior } from "./engine.js";
 import { Layout } from "./layout.js";
@@ -38,9 +39,10 @@ export interface Parts {
   readonly platform: Platform;
   readonly surface: Surface;
   readonly targets: Targets;
-  readonly presence: Presence;
   settings(): Settings;
   readonly intents: Intents;
+  /** There is something to look at in the next frame. */
+  changed(): void;
   /** What the page did wrong. */
   failed(error: unknown): void;
   /** What a resting pointer is over after the page was scrolled under it. */
@@ -49,6 +51,7 @@ export interface Parts {
 
 export class Prediction {
   readonly ledger = new Records();
+  readonly changes: Changes;
   readonly #parts: Parts;
   readonly #layout: Layout;
   readonly #engine: Engine;
@@ -63,7 +66,8 @@ export class Prediction {
   constructor(core: MakePredictor, parts: Parts) {
     this.#parts = parts;
     this.#engine = new Engine(parts.settings, core);
-    this.#layout = new Layout(parts);
+    this.changes = new Changes(parts.platform, parts.changed);
+    this.#layout = new Layout(parts, this.changes);
   }
 
   /** Takes samples in a window's viewport, of a pointer that was over these targets before; gives whether there was something to observe. */
@@ -129,11 +133,11 @@ export class Prediction {
 
   /** A frame: reads the layout and computes the posteriors; gives whether another one is needed. */
   draw(): boolean {
-    const { platform, settings, intents, presence, scrolled } = this.#parts;
+    const { platform, settings, intents, scrolled } = this.#parts;
     for (const runs of this.#waiting.values()) for (const run of runs) run();
     this.#waiting.clear();
-    if (presence.changes.scrolled) {
-      presence.changes.scrolled = false;
+    if (this.changes.scrolled) {
+      this.changes.scrolled = false;
       for (const { hand } of this.#tracks.values()) {
         if (!hand.place || hand.isTouch || hand.moving) continue;
         scrolled(hand, this.#layout.placeAt(this.#layout.toMain(hand.place.view, hand.place)));
@@ -151,7 +155,8 @@ export class Prediction {
       if (!known) continue;
       const best = posterior.best();
       if (best && fresh) track.movement?.note(best, posterior.probability(best));
-      intents.consider(track.hand, posterior.targets, posterior.probabilities);
+      const { targets, probabilities } = posterior;
+      track.candidates.consider(track.hand, targets, probabilities, platform.now(), settings(), intents);
     }
     return true;
   }
@@ -194,11 +199,13 @@ export class Prediction {
   }
 
   forecast(seconds: number): Gaussian | null {
+    notNegative(seconds, "seconds");
     const posterior = this.#moving()?.posterior;
     return posterior?.predictor?.forecast(posterior.last + seconds) ?? null;
   }
 
   path(target: Target, seconds: readonly number[]): Float64Array {
+    seconds.forEach((later, i) => notNegative(later, `seconds[${i}]`));
     const posterior = this.#moving()?.posterior;
     if (!posterior?.predictor || !posterior.targets.includes(target)) return new Float64Array(0);
     return posterior.predictor.path(

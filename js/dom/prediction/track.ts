@@ -8,11 +8,13 @@ import type { Hand, Predicted } from "../hand.js";
 import type { Sample } from "../pointers.js";
 import type { Target } from "../targets.js";
 import type { PointerPosterior } from "./engine.js";
+import { Candidates } from "./candidates.js";
 import { Movement, Segmenter } from "./movements.js";
 
 export class Track implements Predicted {
   readonly hand: Hand;
   readonly posterior: PointerPosterior;
+  readonly candidates = new Candidates();
   readonly #segmenter = new Segmenter();
   #movement: Movement | null = null;
   /** The last movement before it that led from one place to another. */
@@ -87,6 +89,7 @@ export class Track implements Predicted {
   /** The movement is over, and forgotten; what follows is another one. */
   end(): void {
     this.#segmenter.end();
+    this.candidates.clear();
     this.#movement = this.#before = null;
     this.known = this.fresh = false;
   }
