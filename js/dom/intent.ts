@@ -10,13 +10,16 @@ import type { Platform, Stop } from "./platform.js";
 import { idOf, isDisabled, type Target } from "./targets.js";
 import type { Intent, Reason, Release } from "./types.js";
 
-/** Milliseconds for which a finger has to be on a target. */
-const TOUCH = 80;
+/** Milliseconds for which a finger has to be on a target: it may be about to scroll the page. */
+export const TOUCH = 80;
 
 const MINUTE = 60_000;
 
 /** Marks the elements that are meant, for a page's styles. */
 const PREDICTED = "data-predicted";
+
+/** What a target is meant by: a pointer, the focus, that it is visible. */
+type Sign = Pick<Hand, "scope"> & Partial<Hand>;
 
 interface Open {
   readonly intent: Intent;
@@ -38,11 +41,11 @@ export class Intents {
   readonly #open = new Map<Target, Open>();
   readonly #begun: number[] = [];
   readonly #running = new Set<Intent>();
-  readonly #waiting = new Map<unknown, Stop>();
+  readonly #waiting = new Map<Hand | Target, Stop>();
   /** The focus, and what is at most so many tab stops away from it. */
-  #focus: Scope = { spent: new Set() };
+  #focus: Sign = { scope: { spent: new Set() } };
   #focused = new Set<Target>();
-  readonly #viewport: Scope = { spent: new Set() };
+  readonly #viewport: Sign = { scope: { spent: new Set() } };
 
   constructor(platform: Platform, settings: () => Settings, hands: () => Iterable<Hand>, sinks: IntentSinks) {
     this.#platform = platform;
@@ -60,10 +63,10 @@ export class Intents {
   over(hand: Hand, by: "hover" | "scroll"): void {
     const { hover, scroll } = this.#settings().reasons;
     const target = hand.over?.[0];
-    this.#cancel(hand);
+    this.forget(hand);
     if (!target || hand.isTouch || hover === null || (by === "scroll" && !scroll)) return;
     this.#wait(hand, hover, () => {
-      if (hand.over?.[0] === target) this.begin(target, by, hand.scope, hand);
+      if (hand.over?.[0] === target) this.begin(target, by, hand);
     });
   }
 
@@ -71,7 +74,7 @@ export class Intents {
   touch(hand: Hand, target: Target): void {
     if (!this.#settings().reasons.touch) return;
     this.#wait(hand, TOUCH, () => {
-      if (hand.isOver(target)) this.begin(target, "touch", hand.scope, hand);
+      if (hand.isOver(target)) this.begin(target, "touch", hand);
     });
   }
 
@@ -79,13 +82,13 @@ export class Intents {
   press(hand: Hand, targets: readonly Target[]): void {
     this.forget(hand);
     const [target] = targets;
-    if (target && this.#settings().reasons.press) this.begin(target, "press", hand.scope, hand);
+    if (target && this.#settings().reasons.press) this.begin(target, "press", hand);
     for (const each of targets) this.#end(each, true);
   }
 
   /** The focus moved: `target` has it, `ahead` are at most so many tab stops away. */
   focus(target: Target | null, ahead: readonly Target[]): void {
-    this.#focus = { spent: new Set() };
+    this.#focus = { scope: { spent: new Set() } };
     this.#focused = new Set(ahead);
     if (target) {
       this.#focused.add(target);
@@ -98,7 +101,7 @@ export class Intents {
   /** A target appeared on the screen or disappeared from it. */
   visible(target: Target): void {
     const { viewport } = this.#settings().reasons;
-    this.#cancel(target);
+    this.forget(target);
     if (target.visible && viewport !== null) {
       this.#wait(target, viewport, () => this.begin(target, "viewport", this.#viewport));
     }
@@ -111,15 +114,16 @@ export class Intents {
 
   /** Ends an intent of a target that is gone. */
   leave(target: Target): void {
-    this.#cancel(target);
+    this.forget(target);
     this.#focused.delete(target);
-    this.#viewport.spent.delete(target);
+    this.#viewport.scope.spent.delete(target);
     this.#end(target, false);
   }
 
-  /** A pointer is gone, or its movement. */
-  forget(hand: Hand): void {
-    this.#cancel(hand);
+  /** Ends what is waited for: a pointer is gone, or its movement. */
+  forget(key: Hand | Target): void {
+    this.#waiting.get(key)?.();
+    this.#waiting.delete(key);
   }
 
   /** Takes the marks off elements. */
@@ -146,8 +150,10 @@ export class Intents {
     return false;
   }
 
-  begin(target: Target, reason: Reason, scope: Scope, hand?: Hand): void {
+  /** Takes a target to be meant, unless it is already, may not be again, or as many are as may be. */
+  begin(target: Target, reason: Reason, sign: Sign): void {
     const { reactivate, limit } = this.#settings();
+    const { scope, predicted } = sign;
     const now = this.#platform.now();
     if (this.#open.has(target) || target.settings.enabled === false) return;
     if (target.element && isDisabled(target.element)) return;
@@ -157,14 +163,14 @@ export class Intents {
     this.#begun.push(now);
     scope.spent.add(target);
     target.meant = now;
-    if (reason !== "press") hand?.predicted?.movement?.meant.push({ target, time: now });
+    if (reason !== "press") predicted?.movement?.meant.push({ target, time: now });
     const controller = new AbortController();
     const { node, settings } = target;
     const intent: Intent = {
       target: node,
       reason,
-      probability: hand?.probability(target) ?? 0,
-      remaining: (hand?.moving && hand.predicted?.remaining) || null,
+      probability: sign.probability?.(target) ?? 0,
+      remaining: (sign.moving && predicted?.remaining) || null,
       signal: controller.signal,
       id: idOf(target),
       name: settings.name,
@@ -197,7 +203,7 @@ export class Intents {
     this.#sinks.ended(release);
   }
 
-  #wait(key: unknown, milliseconds: number, run: () => void): void {
+  #wait(key: Hand | Target, milliseconds: number, run: () => void): void {
     this.#waiting.set(
       key,
       this.#platform.wait(milliseconds, () => {
@@ -205,11 +211,6 @@ export class Intents {
         run();
       }),
     );
-  }
-
-  #cancel(key: unknown): void {
-    this.#waiting.get(key)?.();
-    this.#waiting.delete(key);
   }
 }
 

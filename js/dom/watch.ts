@@ -255,8 +255,7 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#intents.press(hand, targets);
     if (outcome) this.#calls.call(this.#settings.onOutcome, outcome);
     this.#predicting((prediction) => prediction.end(hand));
-    this.#intents.review();
-    this.#request();
+    this.#review();
   }
 
   lost(pointerId: number): void {
@@ -270,8 +269,7 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#hands.delete(pointerId);
     this.#intents.forget(hand);
     this.#predicting((prediction) => prediction.drop(hand));
-    this.#intents.review();
-    this.#request();
+    this.#review();
   }
 
   hidden(): void {
@@ -284,6 +282,10 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#predicting((prediction) => prediction.end(hand));
     hand.moveOver([]);
     hand.over = hand.place = null;
+    this.#review();
+  }
+
+  #review(): void {
     this.#intents.review();
     this.#request();
   }

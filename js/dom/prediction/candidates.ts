@@ -4,12 +4,9 @@
  * @module
  */
 import type { Hand } from "../hand.js";
-import type { Intents } from "../intent.js";
+import { type Intents, TOUCH } from "../intent.js";
 import type { Settings } from "../options.js";
 import type { Target } from "../targets.js";
-
-/** Milliseconds for which a finger has to hold it: it may be about to scroll the page. */
-const TOUCH = 80;
 
 export class Candidates {
   #since: ReadonlyMap<Target, number> = new Map();
@@ -34,7 +31,7 @@ export class Candidates {
       if ((probabilities[i] as number) < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
       const first = before.get(target) ?? now;
       since.set(target, first);
-      if (now - first >= after) intents.begin(target, "pointer", movement, hand);
+      if (now - first >= after) intents.begin(target, "pointer", hand);
     }
   }
 
