@@ -137,14 +137,14 @@ describe("intent", () => {
     });
 
     it("waits until the probability has held for as long as asked", async () => {
-      const { page, step, close } = await scripted(site, "{ reasons: { pointer: { after: 150 } } }");
+      const { page, step, close } = await scripted(site, "{ reasons: { pointer: { after: 300 } } }");
       await step({});
       await step({ c: 0.9 });
       await step({ c: 0.3 });
       await step({ d: 0.9 });
       assert.deepEqual(await targets(page), [], "not for a moment");
       const start = await page.evaluate(() => performance.now());
-      while ((await page.evaluate(() => performance.now())) < start + 180) await step({ d: 0.9 });
+      while ((await page.evaluate(() => performance.now())) < start + 350) await step({ d: 0.9 });
       assert.deepEqual(await targets(page), ["d"]);
       await close();
     });

@@ -29,7 +29,7 @@ describe("movements", () => {
     assert.ok(best.probability > 0.8, `${best.probability}`);
     const sum = Object.values(probabilities).reduce((sum, each) => sum + each, none);
     assert.ok(Math.abs(sum - 1) < 1e-9, `${sum}`);
-    await hand.rest(0.15);
+    await hand.rest(0.05);
     assert.equal((await read(page)).moving, true, "a short stop is no rest");
     await hand.rest(REST);
     assert.deepEqual(alone(await read(page)), BETWEEN);

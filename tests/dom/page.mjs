@@ -52,7 +52,7 @@ export function read(page, name = "watcher") {
  */
 export async function scripted(site, options = "{}", body = ROW) {
   const opened = await open(site, body, {
-    script: `window.watcher = record("button", { predictor: scriptedPredictor, ...${options} }); await frames(3);`,
+    script: `window.watcher = record("button", { predictor: scriptedPredictor, rest: 600, ...${options} }); await frames(3);`,
   });
   const { page } = opened;
   return {
@@ -70,7 +70,7 @@ export async function scripted(site, options = "{}", body = ROW) {
       ),
     /** A new movement: the pointer rests, then begins again. */
     rest: async () => {
-      await sleep(0.4);
+      await sleep(0.7);
       await page.evaluate(() => scriptedStep({}));
       await page.evaluate(() => scriptedStep({}));
     },
