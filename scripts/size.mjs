@@ -19,7 +19,7 @@ const parts = [
   { name: "its file of WebAssembly", files: ["pointing.wasm"] },
   { name: "`whither/dom`, without what it loads later", files: ["dom.js", "error.js"], budget: budgets.dom },
   { name: "what it loads when a pointer moves, besides `whither/pointing`", files: ["prediction.js"] },
-  { name: "what its `reasons.keyboard` loads", files: ["tabbable.js"] },
+  { name: "what its `reasons.keyboard` loads", files: ["keyboard.js"] },
   { name: "`whither`, as it is packed", files: ["index.js", "shared.js", "error.js", "bytes.js"], budget: budgets.whither },
   { name: "of it the JavaScript", files: ["index.js", "shared.js", "error.js"] },
   { name: "its file of WebAssembly", files: ["whither.wasm"] },

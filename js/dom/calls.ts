@@ -33,14 +33,9 @@ export class Calls {
       if (!onError) throw error;
       onError(error);
     } catch (uncaught) {
-      this.#uncaught(uncaught);
+      const text = String(uncaught);
+      if (!this.#reported.has(text)) this.#platform.report(uncaught);
+      this.#reported.add(text);
     }
   };
-
-  #uncaught(error: unknown): void {
-    const text = String(error);
-    if (this.#reported.has(text)) return;
-    this.#reported.add(text);
-    this.#platform.report(error);
-  }
 }

@@ -4,7 +4,7 @@
  *
  * @module
  */
-import type { FindTabStops } from "./focus.js";
+import type { FindStopsAhead } from "./keyboard.js";
 import type { Prediction } from "./prediction/prediction.js";
 import type { Surface } from "./prediction/surface.js";
 import type { MakePredictor } from "./types.js";
@@ -15,19 +15,16 @@ export type Stop = () => void;
 /** What is called for each type of event. */
 export type Listeners = Readonly<Record<string, (event: never) => void>>;
 
-/** A watcher of elements that a browser calls back about. */
-export interface Observer {
-  observe(node: Node): void;
-  unobserve(node: Node): void;
-  stop(): void;
-}
-
 /** What is loaded when a pointer moves. */
 export interface Loaded {
   readonly Prediction: typeof Prediction;
   readonly surface: Surface;
   readonly core: MakePredictor;
 }
+
+/** What is used of the browser's observers. */
+export type Visibility = Pick<IntersectionObserver, "observe" | "unobserve" | "disconnect">;
+export type Mutations = Pick<MutationObserver, "observe" | "disconnect">;
 
 export interface Platform {
   /** The window whose viewport and clock everything is counted in. */
@@ -43,13 +40,13 @@ export interface Platform {
   /** Passive, in the capture phase. */
   listen(target: EventTarget, listeners: Listeners): Stop;
   /** Calls back with elements that appear on the screen or disappear from it, by scrolling and clipping too; null where there is none. */
-  visibility(changed: (element: Element, visible: boolean) => void): Observer | null;
+  visibility(changed: (element: Element, visible: boolean) => void): Visibility | null;
   /** Calls back when something changes in the trees of the nodes. */
-  mutations(changed: (records: readonly MutationRecord[]) => void): Observer | null;
+  mutations(changed: (records: readonly MutationRecord[]) => void): Mutations | null;
   /** The part that predicts, and the core unless there is another model. */
   load(own: MakePredictor | undefined): Promise<Loaded>;
-  /** The library that finds the order of tab stops. */
-  loadTabStops(): Promise<FindTabStops>;
+  /** What finds tab stops. */
+  loadKeyboard(): Promise<FindStopsAhead>;
   /** As an uncaught error would be. */
   report(error: unknown): void;
 }
@@ -63,7 +60,6 @@ export function hostOf(root: Node): Element | null {
 export function browser(): Platform | null {
   if (typeof document === "undefined" || typeof window === "undefined") return null;
   const main = window;
-  const framed = typeof requestAnimationFrame === "function";
   const wait = (milliseconds: number, run: () => void): Stop => {
     const timer = setTimeout(run, milliseconds);
     return () => clearTimeout(timer);
@@ -72,7 +68,7 @@ export function browser(): Platform | null {
     window: main,
     now: () => performance.now(),
     frame(run) {
-      if (!framed) return wait(16, run);
+      if (typeof requestAnimationFrame !== "function") return wait(16, run);
       const frame = requestAnimationFrame(run);
       return () => cancelAnimationFrame(frame);
     },
@@ -92,38 +88,25 @@ export function browser(): Platform | null {
     },
     visibility(changed) {
       if (typeof IntersectionObserver !== "function") return null;
+      const callback = (entries: readonly IntersectionObserverEntry[]) => {
+        for (const { target, intersectionRatio } of entries) changed(target, intersectionRatio > 0);
+      };
       // what only touches the edge intersects with a ratio of 0: it cannot be pointed at
-      const observer = new IntersectionObserver(
-        (entries) => {
-          for (const { target, intersectionRatio } of entries) changed(target, intersectionRatio > 0);
-        },
-        { threshold: [0, 1e-6] },
-      );
-      return {
-        observe: (node) => observer.observe(node as Element),
-        unobserve: (node) => observer.unobserve(node as Element),
-        stop: () => observer.disconnect(),
-      };
+      return new IntersectionObserver(callback, { threshold: [0, 1e-6] });
     },
-    mutations(changed) {
-      if (typeof MutationObserver !== "function") return null;
-      const observer = new MutationObserver(changed);
-      return {
-        observe: (node) => observer.observe(node, { subtree: true, childList: true, attributes: true, attributeOldValue: true }),
-        unobserve() {},
-        stop: () => observer.disconnect(),
-      };
-    },
+    mutations: (changed) => (typeof MutationObserver === "function" ? new MutationObserver(changed) : null),
     async load(own) {
       const [{ Prediction, surface }, core] = await Promise.all([import("#prediction"), own ?? loadCore()]);
       return { Prediction, surface: surface(), core };
     },
-    async loadTabStops() {
-      return (await import("#tabbable")).tabbable;
+    async loadKeyboard() {
+      return (await import("#keyboard")).stopsAhead;
     },
     report(error) {
-      if (typeof reportError === "function") reportError(error);
-      else console.error(error);
+      // not where it was caught, or the page would not go on
+      setTimeout(() => {
+        throw error;
+      });
     },
   };
 }

@@ -4,8 +4,10 @@
  *
  * @module
  */
-import type { Observer, Platform, Stop } from "./platform.js";
+import type { Mutations, Platform, Stop, Visibility } from "./platform.js";
 import type { Target, Targets } from "./targets.js";
+
+const EVERYTHING = { subtree: true, childList: true, attributes: true, attributeOldValue: true };
 
 export interface PresenceSinks {
   /** Something has changed in the trees in which targets are. */
@@ -20,8 +22,8 @@ export class Presence {
   readonly #platform: Platform;
   readonly #targets: Targets;
   readonly #sinks: PresenceSinks;
-  readonly #visibility: Observer | null;
-  readonly #mutations: Observer | null;
+  readonly #visibility: Visibility | null;
+  readonly #mutations: Mutations | null;
   readonly #windows = new Map<Window, Stop>();
   #roots = new Set<Node>();
 
@@ -67,15 +69,15 @@ export class Presence {
 
   stop(): void {
     this.deafen();
-    this.#visibility?.stop();
-    this.#mutations?.stop();
+    this.#visibility?.disconnect();
+    this.#mutations?.disconnect();
   }
 
   #observe(roots: Set<Node>): void {
     const listening = this.#windows.size > 0;
     this.#roots = roots;
-    this.#mutations?.stop();
-    for (const root of roots) this.#mutations?.observe(root);
+    this.#mutations?.disconnect();
+    for (const root of roots) this.#mutations?.observe(root, EVERYTHING);
     if (listening) this.listen();
   }
 }

@@ -3,7 +3,6 @@
  *
  * @module
  */
-import { WhitherError } from "#error";
 import { isAbsent, missing, number, refuse, text } from "../core/read.js";
 import { readTarget, type Settings, type TargetSettings } from "./options.js";
 import { hostOf } from "./platform.js";
@@ -115,7 +114,7 @@ export class Targets {
 
   /** Sets what holds for one target; null for what the options have. */
   set(node: WatchTarget, options: unknown): void {
-    if (!this.find(node)) throw new WhitherError("unknown-id", "target", "it is not watched");
+    if (!this.find(node)) refuse("unknown-id", "target", "must be watched", node);
     this.change({ own: [node, options === null ? null : readTarget(options, "options")] });
   }
 
@@ -144,7 +143,7 @@ export class Targets {
         if (ids.has(one.id)) {
           // the first one has it
           resolved.set(target, { ...one, id: undefined });
-          throw new WhitherError("duplicate-id", "target.id", `the id ${JSON.stringify(one.id)} is taken by another target`);
+          refuse("duplicate-id", "target.id", "must not be another target's", one.id);
         }
         ids.add(one.id);
       } catch (error) {
@@ -225,9 +224,8 @@ function isIgnored(element: Element): boolean {
 function query(root: ParentNode, selector: string): Element[] {
   try {
     return Array.from(root.querySelectorAll(selector));
-  } catch (cause) {
-    const message = `must be a selector, got ${JSON.stringify(selector)}`;
-    throw new WhitherError("out-of-range", "targets", message, { cause });
+  } catch {
+    return refuse("out-of-range", "targets", "must be a selector", selector);
   }
 }
 

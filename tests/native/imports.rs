@@ -56,7 +56,7 @@ const JAVASCRIPT: [(&str, &[&str]); 5] = [
 const TYPES: [(&str, &str); 1] = [("dom", "pointing")];
 
 /// What `import()` may name, and the folder of js/ that may do so: bundlers make a chunk of each.
-const LATER: [(&str, &str); 3] = [("dom", "#pointing"), ("dom", "#prediction"), ("dom", "#tabbable")];
+const LATER: [(&str, &str); 3] = [("dom", "#pointing"), ("dom", "#prediction"), ("dom", "#keyboard")];
 
 /// Who imports the generated code: `#wasm` and `#bytes` are that of the entry's own module.
 const GENERATED: [&str; 5] = [

@@ -20,8 +20,8 @@
  *
  * @module
  */
-import type { FindTabStops } from "../focus.js";
-import type { Listeners, Loaded, Observer, Platform, Stop } from "../platform.js";
+import type { FindStopsAhead } from "../keyboard.js";
+import type { Listeners, Loaded, Mutations, Platform, Stop, Visibility } from "../platform.js";
 import { Prediction } from "../prediction/prediction.js";
 import type { Surface } from "../prediction/surface.js";
 import type { MakePredictor, Watcher, WatchOptions, WatchTargets } from "../types.js";
@@ -47,7 +47,7 @@ export class TestPage implements Platform {
   readonly errors: unknown[] = [];
   readonly surface: Surface;
   readonly #core: MakePredictor;
-  readonly #tabStops: FindTabStops;
+  readonly #tabStops: FindStopsAhead;
   readonly #visible = new Map<TestElement, boolean>();
   readonly #listeners = new Map<string, Set<(event: never) => void>>();
   readonly #visibilities = new Set<(element: TestElement) => void>();
@@ -55,11 +55,11 @@ export class TestPage implements Platform {
 
   /**
    * @param core - Makes predictors.
-   * @param tabStops - Finds the order of tab stops: by default all elements.
+   * @param tabStops - Finds tab stops: by default none.
    */
-  constructor({ core, tabStops }: { core: MakePredictor; tabStops?: FindTabStops }) {
+  constructor({ core, tabStops }: { core: MakePredictor; tabStops?: FindStopsAhead }) {
     this.#core = core;
-    this.#tabStops = tabStops ?? (() => this.elements as never);
+    this.#tabStops = tabStops ?? (() => []);
     this.document = {
       nodeType: 9,
       ownerDocument: null,
@@ -171,7 +171,7 @@ export class TestPage implements Platform {
     };
   }
 
-  visibility(changed: (element: Element, visible: boolean) => void): Observer {
+  visibility(changed: (element: Element, visible: boolean) => void): Visibility {
     const observed = new Set<unknown>();
     const report = (element: TestElement) => {
       if (observed.has(element)) changed(element as never, this.#visible.get(element) ?? false);
@@ -183,18 +183,17 @@ export class TestPage implements Platform {
         this.frame(() => report(node as never));
       },
       unobserve: (node) => observed.delete(node),
-      stop: () => {
+      disconnect: () => {
         this.#visibilities.delete(report);
         observed.clear();
       },
     };
   }
 
-  mutations(changed: (records: readonly MutationRecord[]) => void): Observer {
+  mutations(changed: (records: readonly MutationRecord[]) => void): Mutations {
     return {
       observe: () => this.#mutations.add(changed),
-      unobserve() {},
-      stop: () => this.#mutations.delete(changed),
+      disconnect: () => this.#mutations.delete(changed),
     };
   }
 
@@ -202,7 +201,7 @@ export class TestPage implements Platform {
     return Promise.resolve({ Prediction, surface: this.surface, core: own ?? this.#core });
   }
 
-  loadTabStops(): Promise<FindTabStops> {
+  loadKeyboard(): Promise<FindStopsAhead> {
     return Promise.resolve(this.#tabStops);
   }
 
