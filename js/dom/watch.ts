@@ -174,20 +174,20 @@ class PageWatcher implements Watcher, PointerSinks {
   update(options: WatchOptions): void {
     if (typeof options !== "object" || options === null) refuse("wrong-type", "options", "must be an object", options);
     const given = { ...this.#given, ...options };
-    const { none, constants, predictor } = this.#settings;
+    const before = this.#settings;
     const settings = readOptions(given);
     const exchange = this.#targets.change({ settings });
     this.#given = given;
     this.#settings = settings;
     this.#take(exchange);
-    if (none !== settings.none || constants !== settings.constants || predictor !== settings.predictor) {
-      this.#prediction?.renew();
-    }
+    const differs = (key: keyof Settings) => before[key] !== settings[key];
+    if (differs("root")) this.#presence.watch([], []);
+    if (differs("none") || differs("constants") || differs("predictor")) this.#prediction?.renew();
     if (!settings.decorate) {
       this.#prediction?.decorate(false);
       this.#intents.unmark();
     }
-    if (this.#state === "running") this.#begin();
+    if (this.#state === "running") this.#begin(before);
     this.#outdate();
   }
 
@@ -315,18 +315,19 @@ class PageWatcher implements Watcher, PointerSinks {
   }
 
   /** Begins to follow pointers and the focus, or again with other options. */
-  #begin(): void {
-    const { signal, load } = this.#settings;
+  #begin(before?: Settings): void {
+    const { signal, load, raw, reasons } = this.#settings;
     this.#end();
     if (signal?.aborted) {
       this.stop();
       return;
     }
     if (signal) this.#stops.push(this.#platform.listen(signal, { abort: () => this.stop() }));
-    this.#presence.listen();
+    // a finger that is down, and how long targets have been visible, stay known
+    if (raw !== before?.raw || reasons.keyboard !== before?.reasons.keyboard) this.#presence.listen();
     if (load === "eager") this.#load();
     if (load === "idle") this.#stops.push(this.#platform.idle(this.#load));
-    for (const target of this.#targets.all) this.#intents.visible(target);
+    if (reasons.viewport !== before?.reasons.viewport) for (const target of this.#targets.all) this.#intents.visible(target);
   }
 
   #end(): void {
@@ -334,9 +335,10 @@ class PageWatcher implements Watcher, PointerSinks {
   }
 
   #listen(view: Window): Stop {
-    const { pointers, raw, reasons } = this.#settings;
+    const { raw, reasons } = this.#settings;
+    const follows = ({ pointerType }: PointerId) => this.#settings.pointers.includes(pointerType);
     const stops = [
-      listenToPointers(this.#platform, view, this, ({ pointerType }) => pointers.includes(pointerType), raw),
+      listenToPointers(this.#platform, view, this, follows, raw),
       listenToFocus(this.#platform, view, reasons.keyboard ?? 0, (path, ahead) => this.#focused(path, ahead), this.#calls.report),
     ];
     if (this.#prediction) stops.push(this.#prediction.changes.listen(view));

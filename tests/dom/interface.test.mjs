@@ -159,6 +159,21 @@ describe("watch", () => {
       await close();
     });
 
+    it("looks in another root from an update on, also where nothing is yet", async () => {
+      const { page, close } = await open(site, `<div id="host"></div>`);
+      const result = await page.evaluate(async () => {
+        const root = document.querySelector("#host").attachShadow({ mode: "open" });
+        const watcher = record("button");
+        watcher.update({ root });
+        root.append(Object.assign(document.createElement("button"), { id: "late" }));
+        document.body.append(Object.assign(document.createElement("button"), { id: "elsewhere" }));
+        await frames(3);
+        return watcher.getSnapshot().moving || watcher.targets.map(nameOf);
+      });
+      assert.deepEqual(result, ["late"]);
+      await close();
+    });
+
     it("leaves out what data-whither-ignore takes out, now and later", async () => {
       const { page, step, close } = await scripted(
         site,

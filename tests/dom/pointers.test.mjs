@@ -330,6 +330,22 @@ describe("pointers", () => {
       await close();
     });
 
+    it("knows a finger that is down after its options have changed", async () => {
+      const { page, close } = await open(site, CORNERS, {
+        ...phone,
+        script: `window.watcher = record("button"); await watcher.ready;`,
+      });
+      const { down, up } = await finger(page);
+      await down(MIDDLE.a.x, MIDDLE.a.y);
+      await until(page, "intent");
+      await page.evaluate(() => watcher.update({ threshold: 0.7, pointers: ["touch"], reasons: { hover: false } }));
+      await up();
+      await page.evaluate(() => frames(2));
+      const [release] = await logged(page, "release");
+      assert.deepEqual([release.target, release.pressed], ["a", true]);
+      await close();
+    });
+
     it("takes a pan for neither", async () => {
       const body = `${buttons(["a", 80, 300], ["b", 80, 400])}<div style="height: 3000px"></div>`;
       const { page, close } = await open(site, body, {

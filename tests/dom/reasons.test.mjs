@@ -239,6 +239,20 @@ describe("reasons", () => {
     await close();
   });
 
+  it("comes by viewport as soon as that is a reason, and is not put off by other options that change", async () => {
+    const { page, close } = await open(site, CORNERS, { script: only({}) });
+    await page.evaluate(async () => {
+      watcher.update({ reasons: { viewport: { after: 250 } } });
+      const start = performance.now();
+      while (performance.now() < start + 400) {
+        watcher.update({ threshold: 0.7 });
+        await frames(2);
+      }
+    });
+    assert.deepEqual((await reasons(page)).filter(([, reason]) => reason === "viewport").length, 3);
+    await close();
+  });
+
   it("are hover, press and focus alone where the core cannot be loaded, and onError is called once", async () => {
     for (const failing of ["pointing-bytes.js", "pointing.js"]) {
       const { page, problems, close } = await open(site, CORNERS);
