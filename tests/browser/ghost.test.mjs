@@ -52,7 +52,7 @@ describe("ghost", () => {
           const { counted } = window;
           counted.frames += 1;
           if (icons.some((icon) => Number(icon.style.getPropertyValue("--light-share")) > 0.3)) counted.lit += 1;
-          if (icons.some((icon) => icon.dataset.predicted === "true")) counted.ringed += 1;
+          if (icons.some((icon) => icon.matches("[data-predicted], [data-held]"))) counted.ringed += 1;
           if (document.querySelector("#ghost .trail").getAttribute("d")) counted.trails += 1;
           const at = arrow.getBoundingClientRect();
           if (last)

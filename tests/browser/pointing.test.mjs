@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { before, describe, it } from "node:test";
 import { movement } from "./hand.mjs";
-import { head, hosted, middles, mouse, open, read, REST } from "./support.mjs";
+import { head, hosted, middles, mouse, open, read, readMovement, REST, sumsToOne } from "./support.mjs";
 
 /** Shares of the screen's width and height; some lie outside of it. */
 const STARTS = [
@@ -34,8 +34,8 @@ describe("pointing", () => {
         await hand.play([[0, from.x, from.y]]);
         await hand.rest(REST);
         await hand.play(movement(from, icon, Math.min(icon.width, icon.height), { seed: count, share: 0.8 }));
-        const shown = await read(page);
-        assert.ok(Math.abs(shown.sum - 1) < 1e-4, `probabilities and none sum to ${shown.sum}`);
+        const shown = await readMovement(page);
+        assert.ok(sumsToOne(shown), `probabilities and none sum to ${shown.sum}`);
         if (shown.top.id !== icon.id) wrong.push(`${Math.round(from.x)},${Math.round(from.y)} to ${icon.id}: ${shown.top.id}`);
       }
     }
@@ -156,7 +156,7 @@ describe("pointing", () => {
         addEventListener("pointerdown", () => (pressed = performance.now()), { capture: true });
         const watch = (now) => {
           if (pressed !== null) light0 ??= light();
-          if (pressed !== null && seats.dataset.predicted !== "true") opened ??= now - pressed;
+          if (pressed !== null && !seats.matches("[data-predicted], [data-held]")) opened ??= now - pressed;
           if (opened !== null && screen.hasAttribute("data-fading") && light() < light0 && light() > 0.1) dimming += 1;
           if (opened !== null && !screen.hasAttribute("data-fading"))
             resolve({ light0, opened, dark: now - pressed, dimming, light: light() });
@@ -197,7 +197,7 @@ describe("pointing", () => {
         busy ? Date.now() + 1000 : 0,
       );
       await Promise.all([work, hand.play(samples)]);
-      shown.push(await read(page));
+      shown.push(await readMovement(page));
       most.push(await page.evaluate(() => window.most));
     }
     assert.equal(shown[1].top.id, "media");
@@ -230,7 +230,7 @@ describe("pointing", () => {
     const icons = await middles(page);
     const [seats, trip] = ["seats", "trip"].map((id) => icons.find((icon) => icon.id === id));
     await hand.play(movement(seats, trip, Math.min(trip.width, trip.height), { seed: 2 }));
-    assert.equal((await read(page)).top.id, "trip");
+    assert.equal((await readMovement(page)).top.id, "trip");
     assert.deepEqual(problems, []);
     await close();
   });
@@ -248,13 +248,13 @@ describe("pointing", () => {
     await hand.rest(REST);
     const back = movement(via, to, to.width, { seed: 9, share: 0.8 });
     await hand.play(back);
-    const afterDetour = await read(page);
+    const afterDetour = await readMovement(page);
     await hand.play([[0, 640, 780]]);
     await hand.rest(REST);
     await hand.play([[0, via.x, via.y]]);
     await hand.rest(REST);
     await hand.play(back);
-    const direct = await read(page);
+    const direct = await readMovement(page);
     assert.equal(afterDetour.top.id, "radio");
     for (const [index, icon] of direct.icons.entries()) {
       assert.ok(Math.abs(icon.probability - afterDetour.icons[index].probability) < 0.02, icon.id);

@@ -42,6 +42,7 @@ export async function open(browser, url, options = {}, { path, ready } = SCREEN)
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...options });
   const page = await context.newPage();
   await page.addInitScript(watchShifts);
+  await page.addInitScript(keepShown);
   const problems = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type())) problems.push(`console: ${message.text()}`);
@@ -82,25 +83,43 @@ export function nextFrame(page) {
 /** The seconds for which a pointer has to stay before what follows is another movement. */
 export const REST = 0.35;
 
-/** What the page shows, after the next frame. */
-export function read(page) {
-  return page.evaluate(async () => {
-    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+/** Runs in the page: `shown()` is what it shows, and `lastShown` what it showed in the last frame of a movement. */
+function keepShown() {
+  const none = () => Number(document.querySelector("#none")?.style.getPropertyValue("--probability") || 1);
+  window.shown = () => {
     const icons = [...document.querySelectorAll("button[data-destination]")].map((icon) => ({
       id: icon.dataset.destination,
       probability: Number(icon.style.getPropertyValue("--probability")),
       predicted: icon.dataset.predicted === "true",
     }));
-    const none = Number(document.querySelector("#none").style.getPropertyValue("--probability"));
     const top = icons.reduce((best, icon) => (icon.probability > best.probability ? icon : best));
-    return {
-      icons,
-      none,
-      top,
-      sum: icons.reduce((sum, icon) => sum + icon.probability, none),
-      status: document.querySelector("#status").textContent,
-    };
-  });
+    const sum = icons.reduce((sum, icon) => sum + icon.probability, none());
+    return { icons, none: none(), top, sum, status: document.querySelector("#status").textContent };
+  };
+  const keep = () => {
+    if (none() < 1) window.lastShown = window.shown();
+    requestAnimationFrame(keep);
+  };
+  requestAnimationFrame(keep);
+}
+
+/** What the page shows, after the next frame. */
+export async function read(page) {
+  await nextFrame(page);
+  return page.evaluate(() => window.shown());
+}
+
+/** The same at the end of a movement: on a machine under load the rest after it may be over before anything is read. */
+export async function readMovement(page) {
+  await nextFrame(page);
+  return page.evaluate(() => window.lastShown);
+}
+
+/** Whether what `read` gives sums to one, as far as that is written: by `whither/dom` to three places, and from 1% on. */
+export function sumsToOne({ icons, sum }) {
+  const written = icons.filter(({ probability }) => probability > 0).length;
+  const rounding = 0.0005 * written;
+  return sum <= 1 + rounding && sum >= 1 - rounding - 0.01 * (icons.length - written);
 }
 
 /** The middles of all icons in the viewport. */
@@ -155,7 +174,7 @@ export async function head(page, hand, from, to, options) {
   await hand.play([[0, start.x, start.y]]);
   await hand.rest(REST);
   await hand.play(movement(start, end, Math.min(end.width, end.height), options));
-  return { shown: await read(page), end };
+  return { shown: await readMovement(page), end };
 }
 
 /** A finger on the glass, dragged through `[seconds, x, y]`, first to last. */

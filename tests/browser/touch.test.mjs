@@ -1,7 +1,7 @@
 // A finger on a phone: it scrolls the page, a tap presses, and sideways it points.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
-import { drag, hosted, middles, open, read } from "./support.mjs";
+import { drag, hosted, middles, open, read, sumsToOne } from "./support.mjs";
 
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
@@ -48,7 +48,7 @@ describe("touch", () => {
       shown = await read(page);
     });
     assert.equal(shown.top.id, "messages");
-    assert.ok(Math.abs(shown.sum - 1) < 1e-4);
+    assert.ok(sumsToOne(shown), `${shown.sum}`);
     assert.equal(await page.evaluate(() => scrollY), 0);
     assert.deepEqual(await presses(page), { pressed: 0, median: "–" });
     assert.deepEqual(problems, []);

@@ -1,18 +1,17 @@
-/** The state of the page, and the updates of its views. Drawing happens once a frame. */
-import type { Belief, Predictions } from "./belief/predictions.ts";
-import type { Settings } from "./belief/settings.ts";
-import type { Stage } from "./ghost.ts";
-import { reach, seeded } from "./movement/hand.ts";
-import type { Box } from "./movement/intent.ts";
-import type { Sample } from "./movement/segmenter.ts";
-import { Tally } from "./movement/tally.ts";
-import { Track } from "./movement/track.ts";
+/** What the page shows of its two watchers: one follows the visitor, the other the ghost, which counts for nothing. */
+import { watch, type Outcome, type Release, type Snapshot, type Watcher, type WatchOptions } from "whither/dom";
+import { DEFAULTS, isSame, NONE, type Settings } from "./belief/settings.ts";
+import { GHOST, type Stage } from "./ghost.ts";
+import type { Point } from "./hand.ts";
+import { History } from "./history.ts";
+import type { Press } from "./press.ts";
 import type { ProbabilityList } from "./view/probabilities.ts";
 import type { Chart } from "./view/chart.ts";
 import type { Fan } from "./view/fan.ts";
 import type { Numbers } from "./view/numbers.ts";
+import { ranking } from "./view/order.ts";
 import type { Screen } from "./view/screen.ts";
-import { prediction, verdict } from "./view/sentences.ts";
+import { prediction, sentence } from "./view/sentences.ts";
 import type { Status } from "../shared/status.ts";
 
 export interface Views {
@@ -24,244 +23,225 @@ export interface Views {
   readonly numbers: Numbers;
 }
 
-/** The history is no coarser than this, however seldom the page is drawn (seconds). */
-const RESOLUTION = 0.016;
+type Icon = HTMLButtonElement;
 
-/** Milliseconds for which the light stays after a press, and in which it then fades. */
+/** The ring is the posterior's alone: what a pointer rests on, or what has the focus, closes none. */
+const REASONS: WatchOptions["reasons"] = { hover: false, press: false, focus: false, touch: false, scroll: false };
+
+/** So many of the most probable icons have a path, and seconds from now for which its places are drawn: to the last arrival. */
+const PATHS = 3;
+const SECONDS = Array.from({ length: 14 }, (_, step) => (1.2 * step) / 13);
+
+/** The ellipse is that of the arrival, and at least so far ahead (seconds): nearer it would be a dot. */
+const AHEAD = 0.15;
+
+/** Milliseconds for which the light stays after a movement, and in which it then fades. */
 const AFTERGLOW = 700;
 const FADE = 400;
 
-/** The ghost and the example are pointers like any other; real ones have identifiers from 0. */
-const GHOST = -1;
-const EXAMPLE = -2;
-
 export class Demonstration {
-  readonly #predictions: Predictions;
   readonly #labels: readonly string[];
   readonly #views: Views;
   readonly #invitation: string;
-  readonly #tally = new Tally();
-  readonly #tracks = new Map<number, Track>();
-  #boxes: readonly Box[];
-  #settings: Settings;
-  /** The pointer whose posterior is shown. */
-  #shown: number | null = null;
-  #frame: number | null = null;
-  /** While the light of a press stays or fades. */
+  readonly #visitor: Watcher<Icon>;
+  readonly #ghost: Watcher<Icon>;
+  readonly #history = new History();
+  #settings = DEFAULTS;
+  /** The icons that are ringed, in the order in which their rings closed. */
+  readonly #ringed = new Set<Icon>();
+  #corner: Point | null = null;
+  /** The icon whose press by a pointer was judged, until its click. */
+  #judged: Icon | null = null;
+  /** While the light of a movement that is over stays or fades. */
   #glowing: ReturnType<typeof setTimeout> | null = null;
+  /** Whether it stays because of a press. */
+  #pressed = false;
 
   /** `invitation` is the text shown while nothing moves. */
-  constructor(predictions: Predictions, settings: Settings, labels: readonly string[], invitation: string, views: Views) {
-    this.#predictions = predictions;
-    this.#settings = settings;
+  constructor(labels: readonly string[], invitation: string, views: Views) {
     this.#labels = labels;
     this.#invitation = invitation;
     this.#views = views;
-    this.#boxes = views.screen.measure();
+    this.#visitor = this.#watch(false);
+    this.#ghost = this.#watch(true);
+    this.#ghost.pause();
+    addEventListener("scroll", () => (this.#corner = null), { capture: true, passive: true });
     this.#quieten();
     views.status.show(invitation);
   }
 
-  /** Samples of one pointer, oldest first. */
-  move(pointerId: number, samples: readonly Sample[]): void {
-    if (this.#learn(pointerId, samples)) this.#frame ??= requestAnimationFrame(() => this.#draw());
-  }
-
-  /** A pointer pressed at `sample`: on an icon, or with null on none of them. What is learnt at the press itself comes too late. */
-  press(pointerId: number, { time }: Sample, index: number | null): void {
-    const track = this.#track(pointerId);
-    const heard = track.heard;
-    const belief = heard && heard.time < time ? this.#record(pointerId, track) : null;
-    if (belief && this.#shown === pointerId) this.#paint(pointerId, track, belief);
-    const judged = track.press(time, index);
-    if (heard) this.#glow();
-    if (index === null) return;
-    this.#views.screen.acknowledge(index);
-    if (!judged) {
-      // the second press of a double one
-      if (this.#glowing === null) this.#reportUnpredicted(index);
-      return;
-    }
-    const { outcome, moments } = judged;
-    this.#views.chart.draw(moments, outcome);
-    this.#views.numbers.last(outcome, pointerId === GHOST);
-    if (pointerId === GHOST) return;
-    this.#tally.add(outcome);
-    const summary = this.#tally.summary();
-    if (summary) this.#views.numbers.total(summary);
-    const label = this.#labels[index];
-    this.#views.status.show(`${label} pressed.`);
-    this.#views.status.announce(`${label} pressed: ${verdict(outcome, this.#labels)}.`, true);
-  }
-
-  /** Enter or an assistive tool: there is no movement to judge. */
-  pressWithoutPointer(index: number): void {
+  /** A press that a watcher judges is shown already; the others had no movement. */
+  press(index: number, pointed: boolean): void {
+    const { screen, status } = this.#views;
+    const judged = pointed && screen.icons[index] === this.#judged;
+    this.#judged = null;
+    if (judged) return;
+    // the second press of a double one
+    const again = pointed && this.#pressed;
     if (this.#glowing === null) this.#quieten();
-    this.#views.screen.acknowledge(index);
-    this.#reportUnpredicted(index);
+    screen.acknowledge(index);
+    if (!again) status.write(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
   }
 
-  /** A pointer turned away from the screen; it may come back. */
-  lose(pointerId: number): void {
-    this.#tracks.get(pointerId)?.forget();
-    if (this.#shown !== pointerId) return;
-    this.#shown = null;
-    if (this.#glowing !== null) return;
-    this.#quieten();
-    this.#views.status.write(this.#invitation);
-  }
-
-  /** The page is hidden: every movement is over. */
-  hide(): void {
-    for (const pointerId of this.#tracks.keys()) this.lose(pointerId);
-  }
-
-  /** A pointer is gone for good. */
-  forget(pointerId: number): void {
-    this.#tracks.delete(pointerId);
-    this.#predictions.release(pointerId);
-    if (this.#shown === pointerId) this.#shown = null;
-  }
-
-  configure(settings: Settings): void {
-    const { method, noise, points } = this.#settings;
+  /** Takes settings: those that need other models than the default one load them first. */
+  async configure(settings: Settings): Promise<void> {
+    const before = this.#settings;
     this.#settings = settings;
-    if (method === settings.method && noise === settings.noise && points === settings.points) return;
-    this.#predictions.configure(settings);
-    for (const track of this.#tracks.values()) track.forget();
-    this.#quieten();
-  }
-
-  /** Where the icons are: they may have moved. While the page is taken down or not laid out they have no size, and stay where they were. */
-  place(): readonly Box[] {
-    const targets = this.#views.screen.measure();
-    if (targets.every(({ width, height }) => width > 0 && height > 0)) {
-      this.#boxes = targets;
-      this.#predictions.place(targets);
-    }
-    return this.#boxes;
-  }
-
-  /** A finished movement of a simulated hand, for a chart that has nothing of its own to show yet. */
-  example(from: number, to: number): void {
-    const [start, end] = [this.#boxes[from], this.#boxes[to]];
-    if (!start || !end) return;
-    const hand = reach(start, end, Math.min(end.width, end.height), seeded(5));
-    const pressed = hand.duration + 0.1;
-    const samples = Array.from({ length: Math.floor(hand.duration * 100) }, (_, step) => ({
-      time: step / 100,
-      ...hand.at(step / 100),
-    }));
-    this.#learn(EXAMPLE, samples);
-    const judged = this.#track(EXAMPLE).press(pressed, to);
-    this.forget(EXAMPLE);
-    if (!judged) return;
-    this.#views.chart.draw(judged.moments, judged.outcome, true);
-    this.#views.numbers.example(judged.outcome);
+    const update = (options: WatchOptions<Icon>) => {
+      for (const watcher of [this.#visitor, this.#ghost]) watcher.update(options);
+    };
+    update({ threshold: settings.threshold });
+    if (isSame(settings, before)) return;
+    const options = isSame(settings, DEFAULTS)
+      ? { constants: undefined, predictor: undefined }
+      : await (await import("./belief/models.ts")).optionsOf(settings);
+    if (isSame(settings, this.#settings)) update(options);
   }
 
   /** The stage on which the ghost plays. */
-  ghost(): Stage {
+  stage(): Stage {
+    const { screen, status } = this.#views;
     return {
-      targets: () => this.#boxes,
-      visible: () => this.#views.screen.isVisible(),
-      enter: () => this.#views.status.announce("A simulated hand shows how it works. Move to take over."),
-      move: (sample) => this.move(GHOST, [sample]),
-      press: (index, sample) => this.press(GHOST, sample, index),
+      targets: () => screen.measure(),
+      corner: () => screen.corner(),
+      visible: () => screen.isVisible(),
+      enter: () => {
+        status.announce("A simulated hand shows how it works. Move to take over.");
+        this.#ghost.resume();
+      },
       gone: () => {
-        this.forget(GHOST);
+        this.#ghost.pause();
         this.#quieten();
-        this.#views.status.write(this.#invitation, true);
+        status.write(this.#invitation, true);
       },
     };
   }
 
-  #track(pointerId: number): Track {
-    let track = this.#tracks.get(pointerId);
-    if (!track) {
-      track = new Track();
-      this.#tracks.set(pointerId, track);
+  #watch(simulated: boolean): Watcher<Icon> {
+    const { icons } = this.#views.screen;
+    const watcher = watch<Icon>(icons, {
+      threshold: DEFAULTS.threshold,
+      none: NONE,
+      reasons: REASONS,
+      reactivate: 0,
+      load: "eager",
+      target: (icon) => ({ name: this.#labelOf(icon) }),
+      pointers: simulated ? [GHOST] : undefined,
+      onIntent: ({ target }) => {
+        this.#ringed.add(target);
+        this.#describe(simulated);
+      },
+      onRelease: (release) => this.#release(release, simulated),
+      onPrediction: (snapshot) => this.#paint(watcher, snapshot, simulated),
+      onOutcome: (outcome) => this.#judge(outcome, simulated),
+    });
+    return watcher;
+  }
+
+  #paint(watcher: Watcher<Icon>, { moving, none, intended }: Snapshot<Icon>, simulated: boolean): void {
+    const { screen, probabilityList, fan, chart, numbers, status } = this.#views;
+    if (!moving) {
+      this.#history.end();
+      probabilityList.rest(none);
+      this.#corner = null;
+      // what is ringed stays lit under a pointer that rests on it
+      if (this.#glowing !== null || intended.length > 0) return;
+      this.#glow(null);
+      status.show(this.#invitation);
+      return;
     }
-    return track;
-  }
-
-  /** Whether there was something to learn. */
-  #learn(pointerId: number, samples: readonly Sample[]): boolean {
-    const track = this.#track(pointerId);
-    let learnt = false;
-    for (const sample of samples) {
-      // where a movement begins, the icons may have moved without an event
-      const cut = track.add(sample, () => this.place());
-      if (cut.fresh) this.#predictions.begin(pointerId);
-      if (cut.samples.length === 0) continue;
-      this.#predictions.observe(pointerId, cut.samples);
-      this.#shown = pointerId;
-      learnt = true;
-      if (sample.time - (track.movement?.history.moments.at(-1)?.time ?? -Infinity) >= RESOLUTION) this.#record(pointerId, track);
-    }
-    return learnt;
-  }
-
-  /** Writes the belief at the latest sample into the movement's history. */
-  #record(pointerId: number, track: Track): Belief | null {
-    if (!track.heard) return null;
-    const belief = this.#predictions.belief(pointerId, track.heard.time);
-    track.record(belief.probabilities, belief.none, this.#settings.threshold);
-    return belief;
-  }
-
-  #draw(): void {
-    this.#frame = null;
-    const track = this.#shown === null ? undefined : this.#tracks.get(this.#shown);
-    const belief = this.#shown !== null && track ? this.#record(this.#shown, track) : null;
-    if (this.#shown !== null && track && belief) this.#paint(this.#shown, track, belief);
-  }
-
-  #paint(pointerId: number, track: Track, belief: Belief): void {
-    if (!track.movement || !track.heard) return;
     this.#cancel();
-    const { intent, history } = track.movement;
-    this.#views.screen.paint(belief.probabilities, intent.current);
-    this.#views.probabilityList.paint(belief);
-    const outlook = this.#predictions.outlook(pointerId, track.heard.time, this.#views.probabilityList.leading(3));
-    if (outlook) this.#views.fan.draw(outlook, belief.probabilities);
-    this.#views.chart.draw(history.moments, null);
-    this.#views.numbers.movement(pointerId === GHOST);
-    const label = (index: number | null) => (index === null ? null : (this.#labels[index] ?? null));
-    const sentence = prediction(label(intent.current), label(intent.leaving));
-    if (pointerId === GHOST) this.#views.status.show(`A simulated hand. ${sentence}`);
-    else this.#views.status.write(sentence);
+    const probabilities = Float64Array.from(screen.icons, (icon) => watcher.probability(icon));
+    const { remaining } = watcher;
+    this.#history.add({ time: performance.now() / 1000, probabilities });
+    this.#corner ??= screen.corner();
+    screen.paint(probabilities);
+    probabilityList.paint({ probabilities, none, remaining });
+    const leading = ranking(probabilities).slice(0, PATHS);
+    const paths = leading.flatMap((index) => {
+      const icon = screen.icons[index];
+      return icon ? { probability: probabilities[index] ?? 0, points: watcher.path(icon, SECONDS) } : [];
+    });
+    const arrival = remaining && watcher.forecast(Math.max(AHEAD, remaining.mean));
+    fan.draw({ paths, arrival }, this.#corner);
+    chart.draw(this.#history.current, null);
+    numbers.movement(simulated);
+    this.#describe(simulated);
   }
 
-  #reportUnpredicted(index: number): void {
-    this.#views.status.write(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
+  /** A ring opens; that of the pressed icon stays as long as its light. */
+  #release({ target, pressed }: Release<Icon>, simulated: boolean): void {
+    this.#ringed.delete(target);
+    if (pressed) this.#press(target);
+    else if (this.#glowing === null) this.#describe(simulated);
   }
 
-  /** The light of a press stays, then fades, unless the pointer moves before. */
-  #glow(): void {
+  #judge(outcome: Outcome<Icon>, simulated: boolean): void {
+    const { screen, chart, numbers, status } = this.#views;
+    const label = outcome.name ?? "";
+    const press: Press = {
+      index: screen.icons.indexOf(outcome.target),
+      label,
+      time: outcome.time / 1000,
+      verdict: outcome.verdict,
+      mistaken: outcome.mistaken && this.#labelOf(outcome.mistaken),
+      lead: outcome.lead,
+    };
+    if (!this.#pressed) this.#press(null);
+    screen.acknowledge(press.index);
+    chart.draw(this.#history.take(press.time - press.lead), press);
+    numbers.last(press, simulated);
+    if (simulated) return;
+    this.#judged = outcome.target;
+    const summary = this.#visitor.ledger.summary();
+    if (summary) numbers.total(summary);
+    status.show(`${label} pressed.`);
+    status.announce(`${label} pressed: ${sentence(press)}.`, true);
+  }
+
+  #labelOf(icon: Icon): string {
+    return this.#labels[this.#views.screen.icons.indexOf(icon)] ?? "";
+  }
+
+  #describe(simulated: boolean): void {
+    const ringed = [...this.#ringed].at(-1);
+    const text = prediction(ringed ? this.#labelOf(ringed) : null);
+    if (simulated) this.#views.status.show(`A simulated hand. ${text}`);
+    else this.#views.status.write(text);
+  }
+
+  #press(held: Icon | null): void {
+    this.#glow(held);
+    this.#pressed = true;
+  }
+
+  /** The light of a movement that is over stays, with the ring of an icon, then fades, unless the pointer moves before. */
+  #glow(held: Icon | null): void {
     this.#cancel();
+    this.#views.screen.hold(held);
     this.#glowing = setTimeout(() => {
       this.#quieten(true);
       this.#glowing = setTimeout(() => this.#quieten(), FADE);
     }, AFTERGLOW);
   }
 
-  /** Cancels what is still to fade or to be drawn. */
+  /** Cancels what is still to fade. */
   #cancel(): void {
-    if (this.#frame !== null) cancelAnimationFrame(this.#frame);
-    this.#frame = null;
     if (this.#glowing !== null) clearTimeout(this.#glowing);
     this.#glowing = null;
+    this.#pressed = false;
     this.#views.screen.fade(false);
+    this.#views.screen.hold(null);
   }
 
-  /** Back to the prior. */
+  /** As between movements. */
   #quieten(fading = false): void {
+    const { screen, probabilityList, fan } = this.#views;
+    const probabilities = new Float64Array(screen.icons.length);
     this.#cancel();
-    const prior = this.#predictions.prior();
-    this.#views.screen.fade(fading);
-    this.#views.screen.paint(prior.probabilities, null);
-    this.#views.probabilityList.paint(prior);
-    if (!fading) this.#views.fan.clear();
+    screen.fade(fading);
+    screen.paint(probabilities);
+    probabilityList.paint({ probabilities, none: 1, remaining: null });
+    if (!fading) fan.clear();
   }
 }

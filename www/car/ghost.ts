@@ -1,8 +1,12 @@
-/** While nobody moves, a ghost shows what the page is for: an arrow with a trail that moves slowly enough to be followed. */
-import { reach, seeded, type Hand } from "./movement/hand.ts";
-import type { Box, Point } from "./movement/intent.ts";
-import type { Sample } from "./movement/segmenter.ts";
+/**
+ * While nobody moves, a ghost shows what the page is for: an arrow with a trail that moves slowly enough to be followed. Its
+ * movements are pointer events of a type of their own, so that what follows them need not be what follows the visitor.
+ */
+import { reach, seeded, type Box, type Hand, type Point } from "./hand.ts";
 import { trail } from "./view/trail.ts";
+
+/** The `pointerType` of its events. */
+export const GHOST = "ghost";
 
 /** Seconds without input before it appears, and before it comes back. */
 const FIRST = 1;
@@ -25,14 +29,19 @@ const TRAIL_WIDTH = 7;
 /** The arrow points to the right of the icon's drawing, so that it does not hide it (shares of a box). */
 const ASIDE = { from: 0.2, to: 0.24 };
 
+/** Seconds on the page's clock, and px of the viewport. */
+interface Sample extends Point {
+  readonly time: number;
+}
+
 export interface Stage {
-  /** The icons' boxes, in px from the screen's corner. */
+  /** The icons' boxes, in px of the viewport. */
   targets(): readonly Box[];
+  /** The corner of what the ghost is drawn in, in px of the viewport. */
+  corner(): Point;
   /** Whether the screen is visible. */
   visible(): boolean;
   enter(): void;
-  move(sample: Sample): void;
-  press(index: number, sample: Sample): void;
   gone(): void;
 }
 
@@ -40,6 +49,17 @@ export interface GhostParts {
   readonly root: HTMLElement;
   readonly arrow: SVGElement;
   readonly trail: SVGElement;
+}
+
+/** An event of the ghost, at the moment that its sample is of. */
+class GhostEvent extends PointerEvent {
+  override readonly timeStamp: number;
+
+  constructor(type: "pointermove" | "pointerdown", { time, x, y }: Sample) {
+    const button = type === "pointerdown" ? 0 : -1;
+    super(type, { pointerType: GHOST, pointerId: -1, clientX: x, clientY: y, button, bubbles: true, composed: true });
+    this.timeStamp = time * 1000;
+  }
 }
 
 /** Plays whenever nothing was heard of a visitor for a while, until the returned function is called. */
@@ -79,43 +99,46 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   const show = (now: number) => {
     const head = places.at(-1);
     if (!head) return;
+    const corner = stage.corner();
+    const inside = ({ x, y }: Point) => ({ x: x - corner.x, y: y - corner.y });
+    const { x, y } = inside(head);
     places = places.filter((place) => now - place.time <= TRAIL);
     if (places.length === 0) places = [head];
-    parts.arrow.style.transform = `translate(${head.x}px, ${head.y}px)`;
-    parts.trail.setAttribute("d", trail(places, TRAIL_WIDTH));
+    parts.arrow.style.transform = `translate(${x}px, ${y}px)`;
+    parts.trail.setAttribute("d", trail(places.map(inside), TRAIL_WIDTH));
   };
 
   const play = (set: number) => {
     const targets = stage.targets();
-    const from = places.at(-1) ?? { x: (targets[0]?.x ?? 0) - 30, y: targets.at(-1)?.y ?? 0 };
+    const from = places.at(-1) ?? { x: stage.corner().x - 30, y: targets.at(-1)?.y ?? 0 };
     const far = targets
       .map((_, index) => index)
       .filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
-    const index = far[Math.floor(random() * far.length)] ?? 0;
-    const target = targets[index];
+    const target = targets[far[Math.floor(random() * far.length)] ?? 0];
     if (!target || !stage.visible()) {
       vanish();
       return;
     }
     const aside = ASIDE.from + (ASIDE.to - ASIDE.from) * random();
     const aim = { x: target.x + aside * target.width, y: target.y + 0.1 * (random() - 0.5) * target.height };
-    follow(reach(from, aim, Math.min(target.width, target.height), random, PACE), index, set);
+    follow(reach(from, aim, Math.min(target.width, target.height), random, PACE), set);
   };
 
-  const follow = (hand: Hand, index: number, set: number) => {
+  const follow = (hand: Hand, set: number) => {
     let sampled = 0;
     let pressed = false;
     const step = (now: number) => {
       const elapsed = (now - set) / 1000;
+      const samples: Sample[] = [];
       for (; sampled <= Math.min(elapsed, hand.duration); sampled += SAMPLING) {
-        const sample = { time: set / 1000 + sampled, ...hand.at(sampled) };
-        places.push(sample);
-        stage.move(sample);
+        samples.push({ time: set / 1000 + sampled, ...hand.at(sampled) });
       }
+      dispatch("pointermove", samples);
+      places.push(...samples);
       show(now / 1000);
       if (!pressed && elapsed > hand.duration + DWELL) {
         pressed = true;
-        stage.press(index, { time: now / 1000, ...hand.at(hand.duration) });
+        dispatch("pointerdown", [{ time: now / 1000, ...hand.at(hand.duration) }]);
       } else if (elapsed > hand.duration + DWELL + PAUSE) {
         play(now);
         return;
@@ -125,7 +148,8 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
     frame = requestAnimationFrame(step);
   };
 
-  const input = () => {
+  const input = (event: Event) => {
+    if (event instanceof GhostEvent) return;
     due = performance.now() + AGAIN * 1000;
     vanish();
   };
@@ -138,6 +162,14 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
     vanish();
     clearTimeout(timer);
   };
+}
+
+/** Dispatches events where the last sample is. */
+function dispatch(type: "pointermove" | "pointerdown", samples: readonly Sample[]): void {
+  const last = samples.at(-1);
+  if (!last) return;
+  const target = document.elementFromPoint(last.x, last.y) ?? document.documentElement;
+  for (const sample of samples) target.dispatchEvent(new GhostEvent(type, sample));
 }
 
 function away(from: Point, target: Point | undefined): number {

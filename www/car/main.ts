@@ -1,12 +1,8 @@
-/** Puts the page together: from pointer events to predictions to what is drawn. */
-import { init } from "whither";
-import { DEFAULTS } from "./belief/settings.ts";
-import { Predictions } from "./belief/predictions.ts";
+/** Puts the page together. */
 import { Demonstration } from "./demonstration.ts";
 import { PLACES } from "./destinations.ts";
 import example from "./example.js?raw";
 import { haunt } from "./ghost.ts";
-import { listen } from "./movement/pointers.ts";
 import { listPapers } from "./papers.ts";
 import { ProbabilityList } from "./view/probabilities.ts";
 import { Chart } from "./view/chart.ts";
@@ -41,11 +37,18 @@ theme(part<HTMLButtonElement>("theme"), () => {
 });
 
 async function start(): Promise<void> {
+  const { exampleOf, init } = await import("./idle.ts");
   await init();
   await document.fonts.ready;
-  const predictions = new Predictions(screen.measure(), DEFAULTS);
   const invitation = matchMedia("(pointer: coarse)").matches ? INVITATIONS.coarse : INVITATIONS.fine;
-  const demonstration = new Demonstration(predictions, DEFAULTS, labels, invitation, {
+  const numbers = new Numbers({
+    lead: part("lead"),
+    median: part("median"),
+    right: part("early-right"),
+    wrong: part("early-wrong"),
+    presses: part("presses"),
+  });
+  const demonstration = new Demonstration(labels, invitation, {
     screen,
     fan,
     chart,
@@ -54,50 +57,30 @@ async function start(): Promise<void> {
       { rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") },
       labels,
     ),
-    numbers: new Numbers(
-      {
-        lead: part("lead"),
-        median: part("median"),
-        right: part("early-right"),
-        wrong: part("early-wrong"),
-        presses: part("presses"),
-      },
-      labels,
-    ),
+    numbers,
   });
 
   controls(part<HTMLFormElement>("controls"), (settings) => {
-    try {
-      demonstration.configure(settings);
-    } catch (error) {
-      status.write(`These settings do not go together: ${reasonOf(error)}`, true);
-    }
+    demonstration.configure(settings).catch((error: unknown) => {
+      status.write(`These settings could not be loaded: ${reasonOf(error)}`, true);
+    });
   });
-  screen.onKeyPress((index) => demonstration.pressWithoutPointer(index));
-  listen(() => screen.corner(), {
-    move: (pointerId, samples) => demonstration.move(pointerId, samples),
-    press: (pointerId, sample, target) => demonstration.press(pointerId, sample, screen.iconOf(target)),
-    lost: (pointerId) => demonstration.lose(pointerId),
-    gone: (pointerId) => demonstration.forget(pointerId),
-    hidden: () => demonstration.hide(),
-  });
+  screen.onPress((index, pointed) => demonstration.press(index, pointed));
 
-  const fit = () => {
-    fan.fit();
-    demonstration.place();
-  };
   onResolution(() => {
-    fit();
+    fan.fit();
     chart.restyle();
   });
-  const sizes = new ResizeObserver(fit);
-  sizes.observe(part("screen"));
-  sizes.observe(part("grid"));
+  new ResizeObserver(() => fan.fit()).observe(part("screen"));
 
-  demonstration.example(EXAMPLE.from, EXAMPLE.to);
+  const example = exampleOf(screen.measure(), labels, EXAMPLE.from, EXAMPLE.to);
+  if (example) {
+    chart.draw(example.moments, example.press, true);
+    numbers.example(example.press);
+  }
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) {
     const svg = (selector: string) => part("ghost").querySelector<SVGElement>(selector) as SVGElement;
-    haunt({ root: part("ghost"), arrow: svg(".arrow"), trail: svg(".trail") }, demonstration.ghost());
+    haunt({ root: part("ghost"), arrow: svg(".arrow"), trail: svg(".trail") }, demonstration.stage());
   }
 }
 

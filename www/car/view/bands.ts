@@ -1,5 +1,5 @@
 /** The areas of the stacked chart. */
-import type { Moment } from "../movement/history.ts";
+import type { Moment } from "../history.ts";
 
 /** Icons with an area of their own; the rest share one. */
 export const OWN = 4;

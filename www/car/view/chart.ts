@@ -1,11 +1,12 @@
 /** The last movement: who was how probable when, the press, and how long before it the answer was right. */
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import type { Moment } from "../movement/history.ts";
-import type { Outcome } from "../movement/outcome.ts";
+import type { Moment } from "../history.ts";
+import type { Press } from "../press.ts";
 import { bandsOf, OWN, stack, type Band } from "./bands.ts";
 import { colours } from "../../shared/colours.ts";
 import { milliseconds } from "./format.ts";
+import { ranking } from "./order.ts";
 
 /** A movement shorter than this does not fill the width (seconds). */
 const SHORTEST = 0.6;
@@ -19,7 +20,7 @@ export class Chart {
   readonly #labels: readonly string[];
   #plot: uPlot;
   #bands: readonly Band[] = [];
-  #outcome: Outcome | null = null;
+  #press: Press | null = null;
   #start = 0;
   #rem = 0;
   #colours = NO_COLOURS;
@@ -42,16 +43,17 @@ export class Chart {
     this.#fitTime();
   }
 
-  /** A movement under way, or with its outcome a finished one; an example is fainter. */
-  draw(moments: readonly Moment[], outcome: Outcome | null, example = false): void {
+  /** A movement under way, or with its press a finished one; an example is fainter. */
+  draw(moments: readonly Moment[], press: Press | null, example = false): void {
     this.#root.toggleAttribute("data-example", example);
     this.#start = moments[0]?.time ?? 0;
-    this.#outcome = outcome;
-    this.#bands = bandsOf(moments, this.#labels, outcome?.chosen ?? moments.at(-1)?.leader ?? 0);
+    this.#press = press;
+    const [leader = 0] = ranking(moments.at(-1)?.probabilities ?? []);
+    this.#bands = bandsOf(moments, this.#labels, press?.index ?? leader);
     const times = moments.map((moment) => moment.time - this.#start);
     const columns = this.#bands.map((band) => [...band.values]);
-    if (outcome) {
-      times.push(outcome.pressed - this.#start);
+    if (press) {
+      times.push(press.time - this.#start);
       for (const column of columns) column.push(column.at(-1) ?? 0);
     }
     this.#data = [times, ...stack(columns)];
@@ -114,24 +116,23 @@ export class Chart {
     context.font = `500 ${size}px ${getComputedStyle(this.#root).fontFamily}`;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    const outcome = this.#outcome;
-    if (outcome) this.#showLead(plot, context, outcome, size);
+    if (this.#press) this.#showLead(plot, context, this.#press, size);
     this.#nameBands(plot, context, size);
     context.restore();
   }
 
   /** The lead is lit, what came before it is dimmed; a dimension line above it gives its length. */
-  #showLead(plot: uPlot, context: CanvasRenderingContext2D, outcome: Outcome, size: number): void {
+  #showLead(plot: uPlot, context: CanvasRenderingContext2D, { time, lead }: Press, size: number): void {
     const { left, top, height } = plot.bbox;
-    const pressed = plot.valToPos(outcome.pressed - this.#start, "x", true);
-    const since = plot.valToPos(outcome.pressed - outcome.lead - this.#start, "x", true);
+    const pressed = plot.valToPos(time - this.#start, "x", true);
+    const since = plot.valToPos(time - lead - this.#start, "x", true);
     context.fillStyle = this.#colours.dim;
     context.fillRect(left, top, since - left, height);
     context.strokeStyle = this.#colours.text;
     context.lineWidth = 2 * devicePixelRatio;
     line(context, pressed, top - 1.6 * size, pressed, top + height);
-    if (outcome.lead === 0) return;
-    const text = milliseconds(outcome.lead);
+    if (lead === 0) return;
+    const text = milliseconds(lead);
     const half = context.measureText(text).width / 2 + size / 2;
     const middle = (since + pressed) / 2;
     const level = top - size;

@@ -1,6 +1,15 @@
 /** What is expected, drawn in light: a path to each of the leading three, and the forecast's one-deviation ellipse once it is informative. */
-import type { Outlook } from "../belief/predictions.ts";
+import type { Gaussian } from "whither/dom";
 import { ellipse, isInformative } from "../../shared/ellipse.ts";
+import type { Point } from "../hand.ts";
+
+/** What is expected, in px of the viewport. */
+export interface Outlook {
+  /** Positions on the way to an icon: x, y, x, y, ... */
+  readonly paths: readonly { readonly probability: number; readonly points: ArrayLike<number> }[];
+  /** Where the pointer is on arrival. */
+  readonly arrival: Gaussian | null;
+}
 
 export class Fan {
   readonly #canvas: HTMLCanvasElement;
@@ -31,26 +40,28 @@ export class Fan {
     this.#drawn = false;
   }
 
-  draw(outlook: Outlook, probabilities: ArrayLike<number>): void {
+  /** `corner` is that of the canvas in the viewport. */
+  draw({ paths, arrival }: Outlook, corner: Point): void {
     if (devicePixelRatio !== this.#scale) this.fit();
     this.clear();
     const context = this.#canvas.getContext("2d");
     if (!context) return;
     this.#drawn = true;
-    context.setTransform(this.#scale, 0, 0, this.#scale, 0, 0);
+    context.setTransform(this.#scale, 0, 0, this.#scale, -corner.x * this.#scale, -corner.y * this.#scale);
     context.strokeStyle = this.#colour;
     context.fillStyle = this.#colour;
     context.lineCap = "round";
     context.lineWidth = 1.5;
-    for (const { index, points } of outlook.paths) {
-      context.globalAlpha = probabilities[index] ?? 0;
+    for (const { probability, points } of paths) {
+      context.globalAlpha = probability;
       trace(context, points);
       context.stroke();
     }
-    const shape = ellipse(outlook.covariance, outlook.states);
+    if (!arrival) return;
+    const shape = ellipse(arrival.covariance, arrival.mean.length);
     if (!isInformative(shape, this.#canvas.clientWidth, this.#canvas.clientHeight)) return;
     context.beginPath();
-    context.ellipse(outlook.mean[0] ?? 0, outlook.mean[1] ?? 0, shape.long, shape.short, shape.angle, 0, 2 * Math.PI);
+    context.ellipse(arrival.mean[0] ?? 0, arrival.mean[1] ?? 0, shape.long, shape.short, shape.angle, 0, 2 * Math.PI);
     context.globalAlpha = 0.07;
     context.fill();
     context.globalAlpha = 0.35;

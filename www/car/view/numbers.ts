@@ -1,8 +1,8 @@
 /** The outcome of the last press, and of all presses together. */
-import type { Outcome } from "../movement/outcome.ts";
-import type { Summary } from "../movement/tally.ts";
+import type { LedgerSummary } from "whither/dom";
+import type { Press } from "../press.ts";
 import { milliseconds, percent } from "./format.ts";
-import { verdict } from "./sentences.ts";
+import { sentence } from "./sentences.ts";
 
 export interface NumbersParts {
   readonly lead: HTMLElement;
@@ -14,17 +14,15 @@ export interface NumbersParts {
 
 export class Numbers {
   readonly #parts: NumbersParts;
-  readonly #labels: readonly string[];
   #under = "";
 
-  constructor(parts: NumbersParts, labels: readonly string[]) {
+  constructor(parts: NumbersParts) {
     this.#parts = parts;
-    this.#labels = labels;
   }
 
   /** A simulated movement, before the first real one. */
-  example(outcome: Outcome): void {
-    this.#write(`An example, until you move. ${this.#describe(outcome)}`);
+  example(press: Press): void {
+    this.#write(`An example, until you move. ${describe(press)}`);
   }
 
   /** A movement is under way. */
@@ -32,19 +30,15 @@ export class Numbers {
     this.#write(simulated ? "Simulated hand, under way" : "Under way");
   }
 
-  last(outcome: Outcome, simulated: boolean): void {
-    this.#write(`${simulated ? "Simulated hand. " : ""}${this.#describe(outcome)}`);
+  last(press: Press, simulated: boolean): void {
+    this.#write(`${simulated ? "Simulated hand. " : ""}${describe(press)}`);
   }
 
-  total({ presses, medianLead, right, wrong }: Summary): void {
-    this.#parts.median.textContent = milliseconds(medianLead);
+  total({ presses, lead, right, wrong }: LedgerSummary): void {
+    this.#parts.median.textContent = milliseconds(lead);
     this.#parts.right.textContent = percent(right);
     this.#parts.wrong.textContent = percent(wrong);
     this.#parts.presses.textContent = presses === 1 ? "Over 1 press" : `Over ${presses} presses`;
-  }
-
-  #describe(outcome: Outcome): string {
-    return `${this.#labels[outcome.chosen] ?? ""}: ${verdict(outcome, this.#labels)}`;
   }
 
   #write(text: string): void {
@@ -52,4 +46,8 @@ export class Numbers {
     this.#under = text;
     this.#parts.lead.textContent = text;
   }
+}
+
+function describe(press: Press): string {
+  return `${press.label}: ${sentence(press)}`;
 }

@@ -1,5 +1,5 @@
 /** The right-hand side: the leading five, none of them, the time to go. */
-import type { Belief } from "../belief/predictions.ts";
+import type { Remaining } from "whither/dom";
 import { percent, seconds } from "./format.ts";
 import { ranking } from "./order.ts";
 
@@ -11,7 +11,14 @@ interface Row {
   readonly figure: HTMLElement;
 }
 
-export interface BelieverParts {
+/** What is shown: the probabilities of the icons and of none of them, and the time to go. */
+export interface Posterior {
+  readonly probabilities: Float64Array;
+  readonly none: number;
+  readonly remaining: Remaining | null;
+}
+
+export interface ProbabilityListParts {
   readonly rows: HTMLElement;
   readonly none: HTMLElement;
   readonly remaining: HTMLElement;
@@ -20,12 +27,12 @@ export interface BelieverParts {
 
 export class ProbabilityList {
   readonly #labels: readonly string[];
-  readonly #parts: BelieverParts;
+  readonly #parts: ProbabilityListParts;
   /** The rows stay where they are, one for each rank: what moves is their light. */
   readonly #rows: readonly Row[];
   #order: number[];
 
-  constructor(parts: BelieverParts, labels: readonly string[]) {
+  constructor(parts: ProbabilityListParts, labels: readonly string[]) {
     this.#labels = labels;
     this.#parts = parts;
     this.#rows = Array.from({ length: SHOWN }, row);
@@ -38,7 +45,12 @@ export class ProbabilityList {
     return this.#order.slice(0, count);
   }
 
-  paint({ probabilities, none, timeToGo }: Belief): void {
+  /** The probability of none of them is another one by now; the numbers shown stay. */
+  rest(none: number): void {
+    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
+  }
+
+  paint({ probabilities, none, remaining }: Posterior): void {
     this.#order = ranking(probabilities);
     this.#rows.forEach(({ element, name, figure }, rank) => {
       const index = this.#order[rank] ?? 0;
@@ -47,10 +59,10 @@ export class ProbabilityList {
       write(figure, percent(probability));
       element.style.setProperty("--share", probability.toFixed(4));
     });
-    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
+    this.rest(none);
     write(this.#parts.none, percent(none));
-    write(this.#parts.remaining, timeToGo ? seconds(timeToGo.mean) : "–");
-    write(this.#parts.interval, timeToGo ? `80%: ${timeToGo.low.toFixed(2)} to ${timeToGo.high.toFixed(2)} s` : "");
+    write(this.#parts.remaining, remaining ? seconds(remaining.mean) : "–");
+    write(this.#parts.interval, remaining ? `80%: ${remaining.low.toFixed(2)} to ${remaining.high.toFixed(2)} s` : "");
   }
 }
 

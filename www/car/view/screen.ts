@@ -1,6 +1,6 @@
 /** The car's screen: 21 icons that shine as bright as they are probable. */
 import { createElement } from "lucide";
-import type { PointerTarget } from "whither";
+import type { Box, Point } from "../hand.ts";
 import type { Place } from "../destinations.ts";
 import { destinationOf } from "./walk.ts";
 
@@ -11,63 +11,54 @@ const LIGHTS = 200;
 
 export class Screen {
   readonly #root: HTMLElement;
-  readonly #buttons: readonly HTMLButtonElement[];
-  readonly #places: readonly Place[];
+  readonly icons: readonly HTMLButtonElement[];
   readonly #lights: number[] = [];
-  #predicted: number | null = null;
+  #held: Element | null = null;
 
   constructor(root: HTMLElement, grid: HTMLElement, places: readonly Place[]) {
     this.#root = root;
-    this.#places = places;
-    this.#buttons = places.map(button);
-    grid.append(...this.#buttons);
+    this.icons = places.map(button);
+    grid.append(...this.icons);
     grid.addEventListener("keydown", (event) => this.#walk(event));
   }
 
-  /** Calls back when an icon is pressed without a pointer: Enter, the space bar, an assistive tool. */
-  onKeyPress(callback: (index: number) => void): void {
-    this.#buttons.forEach((each, index) =>
+  /** Calls back when an icon is pressed: with a pointer, or without one by Enter, the space bar, an assistive tool. */
+  onPress(callback: (index: number, pointed: boolean) => void): void {
+    this.icons.forEach((each, index) =>
       each.addEventListener("click", (event) => {
-        const pointed = event instanceof PointerEvent && ["mouse", "pen", "touch"].includes(event.pointerType);
-        if (!pointed) callback(index);
+        callback(index, event instanceof PointerEvent && ["mouse", "pen", "touch"].includes(event.pointerType));
       }),
     );
   }
 
-  corner(): { x: number; y: number } {
+  /** Its corner, in px of the viewport. */
+  corner(): Point {
     const { left, top } = this.#root.getBoundingClientRect();
     return { x: left, y: top };
   }
 
-  /** Where the icons are, in px from the screen's corner. */
-  measure(): PointerTarget[] {
-    const corner = this.corner();
-    return this.#buttons.map((each, index) => {
+  /** Where the icons are, in px of the viewport. */
+  measure(): Box[] {
+    return this.icons.map((each) => {
       const { left, top, width, height } = each.getBoundingClientRect();
-      return { id: this.#places[index]?.id ?? "", x: left - corner.x + width / 2, y: top - corner.y + height / 2, width, height };
+      return { x: left + width / 2, y: top + height / 2, width, height };
     });
   }
 
-  /** The icon that an element belongs to, or null. */
-  iconOf(element: Element | null): number | null {
-    const found = element?.closest<HTMLButtonElement>("button[data-destination]");
-    const index = found ? this.#buttons.indexOf(found) : -1;
-    return index < 0 ? null : index;
-  }
-
-  paint(probabilities: ArrayLike<number>, predicted: number | null): void {
-    this.#buttons.forEach((each, index) => {
-      const probability = probabilities[index] ?? 0;
-      each.style.setProperty("--probability", probability.toFixed(6));
-      const light = Math.round(probability * LIGHTS) / LIGHTS;
+  paint(probabilities: ArrayLike<number>): void {
+    this.icons.forEach((each, index) => {
+      const light = Math.round((probabilities[index] ?? 0) * LIGHTS) / LIGHTS;
       if (light === this.#lights[index]) return;
       this.#lights[index] = light;
       each.style.setProperty("--light-share", String(light));
     });
-    if (predicted === this.#predicted) return;
-    if (this.#predicted !== null) this.#buttons[this.#predicted]?.removeAttribute("data-predicted");
-    if (predicted !== null) this.#buttons[predicted]?.setAttribute("data-predicted", "true");
-    this.#predicted = predicted;
+  }
+
+  /** Keeps the ring of an icon that is not predicted any more, and no other one's. */
+  hold(icon: Element | null): void {
+    this.#held?.removeAttribute("data-held");
+    icon?.setAttribute("data-held", "");
+    this.#held = icon;
   }
 
   /** While what was lit fades. */
@@ -83,7 +74,7 @@ export class Screen {
 
   /** Shows that a press was received. */
   acknowledge(index: number): void {
-    const pressed = this.#buttons[index];
+    const pressed = this.icons[index];
     if (!pressed) return;
     pressed.removeAttribute("data-pressed");
     void pressed.offsetWidth;
@@ -92,17 +83,17 @@ export class Screen {
 
   #walk(event: KeyboardEvent): void {
     if (event.altKey || event.ctrlKey || event.metaKey) return;
-    const here = this.iconOf(event.target instanceof Element ? event.target : null);
-    if (here === null) return;
-    const next = destinationOf(event.key, here, this.#columns(), this.#buttons.length);
+    const here = this.icons.indexOf(event.target as HTMLButtonElement);
+    if (here < 0) return;
+    const next = destinationOf(event.key, here, this.#columns(), this.icons.length);
     if (next === null) return;
     event.preventDefault();
-    this.#buttons[next]?.focus();
+    this.icons[next]?.focus();
   }
 
   #columns(): number {
-    const top = this.#buttons[0]?.offsetTop;
-    return this.#buttons.filter((each) => each.offsetTop === top).length;
+    const top = this.icons[0]?.offsetTop;
+    return this.icons.filter((each) => each.offsetTop === top).length;
   }
 }
 

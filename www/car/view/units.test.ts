@@ -4,7 +4,8 @@ import { bandsOf, stack } from "./bands.ts";
 import { ellipse, isInformative } from "../../shared/ellipse.ts";
 import { milliseconds, percent, seconds } from "./format.ts";
 import { ranking } from "./order.ts";
-import { prediction } from "./sentences.ts";
+import { History } from "../history.ts";
+import { prediction, sentence } from "./sentences.ts";
 import { trail } from "./trail.ts";
 import { destinationOf } from "./walk.ts";
 import { Status } from "../../shared/status.ts";
@@ -32,10 +33,26 @@ describe("order of the rows", () => {
 });
 
 describe("sentences", () => {
-  it("name what is ringed, and what is being left where that is as probable", () => {
-    assert.equal(prediction("Seats", null), "Heading for Seats.");
-    assert.equal(prediction(null, "Fuel"), "Leaving Fuel.");
-    assert.equal(prediction(null, null), "Not sure yet.");
+  it("name what is ringed", () => {
+    assert.equal(prediction("Seats"), "Heading for Seats.");
+    assert.equal(prediction(null), "Not sure yet.");
+  });
+
+  it("report of a press what its numbers are", () => {
+    assert.deepEqual(
+      [
+        sentence({ verdict: "right", mistaken: null, lead: 0.612 }),
+        sentence({ verdict: "wrong", mistaken: "Radio", lead: 0.212 }),
+        sentence({ verdict: "wrong", mistaken: "Radio", lead: 0 }),
+        sentence({ verdict: "unsure", mistaken: null, lead: 0 }),
+      ],
+      [
+        "right 612 ms before the press",
+        "wrong at first (Radio), right 212 ms before the press",
+        "wrong, it expected Radio",
+        "not sure before the press",
+      ],
+    );
   });
 });
 
@@ -97,8 +114,6 @@ describe("bands", () => {
   const moment = (time: number, ...probabilities: number[]) => ({
     time,
     probabilities: Float64Array.from(probabilities),
-    none: 0,
-    leader: 0,
   });
   const labels = ["a", "b", "c", "d", "e", "f"];
 
@@ -143,5 +158,32 @@ describe("ellipse", () => {
   it("is shown once it distinguishes places", () => {
     assert.equal(isInformative({ long: 300, short: 20, angle: 0 }, 800, 430), false);
     assert.equal(isInformative({ long: 60, short: 20, angle: 0 }, 800, 430), true);
+  });
+});
+
+describe("history", () => {
+  /** Two movements, at 1 to 1.2 s and at 3 to 3.2 s. */
+  function two(): History {
+    const history = new History();
+    for (const start of [1, 3]) {
+      for (const later of [0, 0.1, 0.2]) history.add({ time: start + later, probabilities: Float64Array.of(later) });
+      history.end();
+    }
+    return history;
+  }
+  const times = (moments: readonly { time: number }[]) => moments.map(({ time }) => time);
+
+  it("has for a press the movement in which the icon was ringed, else the last one", () => {
+    assert.deepEqual(times(two().take(1.15)), [1, 1.1, 1.2]);
+    assert.deepEqual(times(two().take(3)), [3, 3.1, 3.2]);
+    assert.deepEqual(times(two().take(4)), [3, 3.1, 3.2]);
+  });
+
+  it("begins again after a press, and keeps no more than the last seconds of a movement", () => {
+    const history = two();
+    history.take(4);
+    assert.deepEqual(history.current, []);
+    for (let time = 5; time < 30; time++) history.add({ time, probabilities: Float64Array.of(1) });
+    assert.deepEqual([history.current[0]?.time, history.current.length], [17, 13]);
   });
 });

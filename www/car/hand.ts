@@ -1,5 +1,16 @@
 /** Simulated hand movements for the ghost pointer. */
-import type { Point } from "./intent.ts";
+
+/** In px. */
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** A box by its centre and size, in px. */
+export interface Box extends Point {
+  readonly width: number;
+  readonly height: number;
+}
 
 /** A pseudo-random number generator (mulberry32): the ghost makes the same movements for everybody. */
 export function seeded(seed: number): () => number {
