@@ -11,7 +11,7 @@ const LARGEST = 200_000;
 
 const host = await serve();
 const browser = await launch();
-const { page, sins } = await open(browser, host.url, { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 2 });
+const { page, problems } = await open(browser, host.url, { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 2 });
 const hand = await mouse(page);
 const icons = new Map((await middles(page)).map((icon) => [icon.id, icon]));
 
@@ -36,6 +36,6 @@ await writeFile(file, picture);
 await browser.close();
 await host.close();
 
-if (sins.length > 0 || picture.length > LARGEST)
-  throw new Error([`docs/demo.webp has ${picture.length} bytes`, ...sins].join("\n"));
+if (problems.length > 0 || picture.length > LARGEST)
+  throw new Error([`docs/demo.webp has ${picture.length} bytes`, ...problems].join("\n"));
 console.log(`docs/demo.webp: ${picture.length} bytes`);
