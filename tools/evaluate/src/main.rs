@@ -9,6 +9,7 @@ mod chart;
 mod extras;
 mod foresight;
 mod habits;
+mod intents;
 mod learning;
 mod methods;
 mod peers;
@@ -32,6 +33,9 @@ use whither::study::metrics::Score;
 
 /// Options of the usual tables only.
 const OF_SCORES: [&str; 7] = ["scenario", "more", "ours", "users", "margin", "every", "charts"];
+
+/// Options and tables that have nothing to do with intents.
+const NOT_OF_INTENTS: [&str; 9] = ["scenario", "more", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
 
 /// The error where nothing was scored.
 const NOTHING: &str = "nothing to score: too few tracks enter their target";
@@ -74,6 +78,13 @@ struct Arguments {
     /// Instead, simulate users with habits, and print the gain from learning their habits.
     #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "files")]
     habits: bool,
+    /// Instead, replay the tracks through whither/dom with thresholds, weights of "none" and holding times varied one at a time: intents
+    /// that were wrong, early and right, their lead, and those of a page without the target.
+    #[arg(long, conflicts_with_all = NOT_OF_INTENTS)]
+    intents: bool,
+    /// With --intents, every combination of these in the report, too.
+    #[arg(long, requires = "intents")]
+    grid: bool,
     /// Where to write the report as JSON.
     #[arg(long, default_value = "target/evaluate/report.json")]
     json: PathBuf,
@@ -106,6 +117,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     if arguments.fit {
         return in_place_of_scores(arguments, "fit", |file, into| learning::run(&template_for(file)?, file, into));
+    }
+    if arguments.intents {
+        return intents::run(&arguments.files, &arguments.json, arguments.users, arguments.grid);
     }
     let mut results = Results::default();
     let mut skipped = 0;
@@ -236,6 +250,7 @@ mod tests {
             !refused("evaluate a.jsonl --more")
                 && !refused("evaluate a.jsonl --sweep")
                 && !refused("evaluate --habits")
+                && !refused("evaluate a.jsonl --intents --users --grid")
         );
         for line in [
             "evaluate",
@@ -243,6 +258,10 @@ mod tests {
             "evaluate a --fit --sweep",
             "evaluate a --habits",
             "evaluate a --sweep --more",
+            "evaluate --intents",
+            "evaluate a --intents --sweep",
+            "evaluate a --intents --every 2",
+            "evaluate a --grid",
         ] {
             assert!(refused(line), "{line}");
         }

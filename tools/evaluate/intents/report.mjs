@@ -1,0 +1,74 @@
+// What was measured, as tables and as JSON.
+import { mkdir, writeFile } from "node:fs/promises";
+import { dirname } from "node:path";
+import { table } from "../../../scripts/table.mjs";
+import { Sums } from "./figures.mjs";
+import { isVaried, nameOf, REASONS } from "./rows.mjs";
+
+/** The sums of all users for the i-th options. */
+function total(users, i) {
+  const sums = new Sums();
+  for (const each of users.values()) sums.merge(each[i]);
+  return sums;
+}
+
+/** What the columns are. */
+export const LEGEND = `wrong: intents of other targets before the press, and for how long. early: movements whose target was intended before the pointer came to it;
+first: early, and before any other; before press: early or not; held: of the early ones, not taken back before the press.
+lead: median from the target's first intent. withheld: intents where the target is not on the page, all of them false.
+`;
+
+const HEADINGS = [
+  "wrong / movement",
+  "wrong / min",
+  "wrong ms / movement",
+  "early %",
+  "first %",
+  "before press %",
+  "held %",
+  "lead to press ms",
+  "to entry ms",
+  "withheld: false / movement",
+  "false / min",
+];
+
+/** Prints a set's tables: for each of the reasons the options varied one at a time, and the defaults by user. */
+export function print(name, users, combinations, rows, byUser) {
+  for (const reasons of REASONS) {
+    const mine = combinations.flatMap((each, i) => (each.reasons === reasons ? { ...each, i } : []));
+    const all = mine.filter(({ row }) => isVaried(row, rows)).map(({ row, i }) => [nameOf(row, rows), total(users, i).figures()]);
+    const { movements } = all[0][1];
+    console.log(`${name}: ${movements} movements of ${users.size} users, ${reasons.name}\n`);
+    table(["options", ...HEADINGS], cells(all));
+    if (byUser) table(["user", ...HEADINGS], cells([...users].map(([user, sums]) => [user, sums[mine[0].i].figures()])));
+  }
+}
+
+/** Rows of a table: shares in percent, leads in milliseconds. */
+function cells(rows) {
+  const percent = (share) => (share === null ? "-" : (100 * share).toFixed(1));
+  const milliseconds = (seconds) => (seconds === null ? "-" : (1000 * seconds).toFixed(0));
+  return rows.map(([name, f]) => [
+    name,
+    f.wrong.toFixed(3),
+    f.wrongPerMinute.toFixed(1),
+    milliseconds(f.wrongSeconds),
+    ...[f.early, f.first, f.before, f.held].map(percent),
+    ...[f.leadToPress, f.leadToEntry].map(milliseconds),
+    f.withheld.toFixed(3),
+    f.withheldPerMinute.toFixed(1),
+  ]);
+}
+
+/** All figures, those of the combinations too, by set and by user: shares, and seconds. */
+export async function write(file, sets, combinations) {
+  const list = (figures) => combinations.map(({ row, reasons }, i) => ({ reasons: reasons.name, ...row, ...figures(i) }));
+  const intents = Array.from(sets, ([set, users]) => ({
+    set,
+    rows: list((i) => total(users, i).figures()),
+    users: Object.fromEntries(Array.from(users, ([user, sums]) => [user, list((i) => sums[i].figures())])),
+  }));
+  await mkdir(dirname(file), { recursive: true });
+  await writeFile(file, `${JSON.stringify({ intents })}\n`);
+  console.log(`report: ${file}`);
+}

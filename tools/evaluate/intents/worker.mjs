@@ -1,0 +1,39 @@
+// Replays tracks beside others: is given lines, `{ number, text }`, answers what came of each, in their order.
+import { parentPort, workerData } from "node:worker_threads";
+import { init, PointerPredictor } from "../../../dist/pointing.js";
+import { judge } from "./figures.mjs";
+import { replay } from "./replay.mjs";
+import { partOf, readTrack } from "./tracks.mjs";
+
+const { page, options } = workerData;
+const { TestPage: Page } = await import(page);
+await init();
+const core = (targets, settings) => new PointerPredictor(targets, settings);
+
+/** A movement's figures for each of the options; null where it has no approach. */
+async function score(track) {
+  const shown = await replay(track, options, { Page, core, withheld: false });
+  if (!shown) return null;
+  const hidden = await replay(track, options, { Page, core, withheld: true });
+  return {
+    user: track.user ?? "",
+    part: partOf(track),
+    scores: options.map((_, i) => ({
+      seconds: shown.press,
+      judged: judge(shown, shown.intents[i]),
+      withheld: hidden.intents[i].filter(({ begin }) => begin < hidden.press).length,
+    })),
+  };
+}
+
+parentPort.on("message", async (lines) => {
+  const scored = [];
+  for (const { number, text } of lines) {
+    try {
+      scored.push(await score(readTrack(text)));
+    } catch (error) {
+      scored.push({ broken: `${number}: ${error.message}` });
+    }
+  }
+  parentPort.postMessage(scored);
+});
