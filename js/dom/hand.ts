@@ -4,7 +4,7 @@
  * @module
  */
 import type { Remaining } from "../core/predictor.js";
-import type { Place, PointerId } from "./pointers.js";
+import type { Place } from "./pointers.js";
 import type { Target } from "./targets.js";
 
 /** In which a target is meant once: a movement, a focus. */
@@ -41,7 +41,6 @@ export interface Predicted {
 }
 
 export class Hand {
-  readonly pointerId: number;
   readonly pointerType: string;
   /** The targets that it is over, the innermost first; null before that is known. */
   over: readonly Target[] | null = null;
@@ -50,8 +49,7 @@ export class Hand {
   predicted: Predicted | null = null;
   #scope: Scope = { spent: new Set() };
 
-  constructor({ pointerId, pointerType }: PointerId) {
-    this.pointerId = pointerId;
+  constructor(pointerType: string) {
     this.pointerType = pointerType;
   }
 

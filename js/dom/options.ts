@@ -57,8 +57,6 @@ type Read = (value: unknown, path: string) => unknown;
 /** Of each key how it is read, and its default. */
 type Table = Readonly<Record<string, readonly [read: Read, otherwise?: unknown]>>;
 
-const LOADS: readonly unknown[] = ["eager", "idle", "pointer"];
-
 /** How many presses the priors of targets are worth. */
 const STRENGTH = 5;
 
@@ -79,6 +77,15 @@ function has(method: string, name: string): Read {
     typeof (value as Record<string, unknown>)[method] === "function"
       ? value
       : refuse("wrong-type", path, `must be ${name}`, value);
+}
+
+/** A word, read as what it stands for; `or` reads what is none. */
+function word(words: Readonly<Record<string, unknown>>, or: Read = text): Read {
+  return (value, path) => {
+    if (typeof value !== "string") return or(value, path);
+    const names = Object.keys(words);
+    return names.includes(value) ? words[value] : refuse("out-of-range", path, `must be one of ${names.join(", ")}`, value);
+  };
 }
 
 /** `{ [key]: number }`; `true` stands for `yes`, `false` for never. */
@@ -104,20 +111,18 @@ const flag = is("boolean");
 const callback = is("function");
 const share = within("must be greater than 0 and at most 1", (x) => x > 0 && x <= 1);
 
-const SIDES = ["top", "right", "bottom", "left"] as const;
+/** In the order of {@link Slop}. */
+const SIDES: Table = { top: [notNegative, 0], right: [notNegative, 0], bottom: [notNegative, 0], left: [notNegative, 0] };
 
 const TARGET: Table = {
   id: [text],
-  name: [is("string")],
+  name: [text],
   data: [(value) => value],
   prior: [notNegative],
   threshold: [share],
   hitSlop: [
-    (value, path) => {
-      if (typeof value !== "object") return Array(4).fill(notNegative(value, path));
-      const slop: Record<string, number> = read(value, Object.fromEntries(SIDES.map((side) => [side, [notNegative, 0]])), path);
-      return SIDES.map((side) => slop[side]);
-    },
+    (value, path) =>
+      typeof value === "object" ? Object.values(read(value, SIDES, path)) : Array(4).fill(notNegative(value, path)),
   ],
   enabled: [flag],
   onIntent: [callback],
@@ -144,17 +149,7 @@ const OPTIONS: Table = {
   rest: [positive, 300],
   target: [(value, path) => (typeof value === "function" ? value : readTarget(value, path)), {}],
   reasons: [(value, path) => read(value, REASONS, path), read(undefined, REASONS, "")],
-  reactivate: [
-    (value, path) =>
-      value === "movement"
-        ? null
-        : value === "never"
-          ? Infinity
-          : typeof value === "number"
-            ? notNegative(value, path)
-            : refuse("out-of-range", path, 'must be "never", "movement" or milliseconds', value),
-    null,
-  ],
+  reactivate: [word({ never: Infinity, movement: null }, notNegative), null],
   limit: [(value, path) => read(value, LIMIT, path), read(undefined, LIMIT, "")],
   pointers: [
     (value, path) =>
@@ -164,10 +159,7 @@ const OPTIONS: Table = {
     ["mouse", "pen", "touch"],
   ],
   raw: [flag, false],
-  load: [
-    (value, path) => (LOADS.includes(value) ? value : refuse("out-of-range", path, `must be one of ${LOADS.join(", ")}`, value)),
-    "pointer",
-  ],
+  load: [word({ eager: "eager", idle: "idle", pointer: "pointer" }), "pointer"],
   decorate: [flag, true],
   constants: [is("object")],
   predictor: [callback],

@@ -292,7 +292,7 @@ class PageWatcher implements Watcher, PointerSinks {
 
   #hand(pointer: PointerId): Hand {
     let hand = this.#hands.get(pointer.pointerId);
-    if (!hand) this.#hands.set(pointer.pointerId, (hand = new Hand(pointer)));
+    if (!hand) this.#hands.set(pointer.pointerId, (hand = new Hand(pointer.pointerType)));
     return hand;
   }
 

@@ -18,7 +18,7 @@ function over(x: number): readonly Target[] {
 
 /** One pointer with its track, which knows what the pointer is over as a page's events have it. */
 function pointer() {
-  const hand = new Hand({ pointerId: 1, pointerType: "mouse" });
+  const hand = new Hand("mouse");
   const track = new Track(hand, { probability: () => 0.5 } as never as PointerPosterior);
   hand.predicted = track;
   /** At a time in seconds; gives whether there was something to observe. */
