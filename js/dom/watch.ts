@@ -106,7 +106,7 @@ class PageWatcher implements Watcher, PointerSinks {
     });
     this.#presence = new Presence(platform, this.#targets, {
       changed: (records) => {
-        if (this.#prediction?.changes.isDecoration(records)) return;
+        if (this.#prediction?.changes.restyle(records, this.#targets.all)) return;
         this.#targets.stale = true;
         this.#outdate();
       },

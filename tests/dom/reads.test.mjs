@@ -171,6 +171,24 @@ describe("reads of the layout", () => {
     });
   }
 
+  it("are of no styles while something else on the page is animated by its style attribute", async () => {
+    const body = `${grid(40, 25)}<div id="spinner" class="place" style="left: 0; top: 650px"><i></i></div><script>
+      (function step(time) {
+        spinner.style.transform = "rotate(" + time + "deg)";
+        requestAnimationFrame(step);
+      })(0)</script>`;
+    const { page, close } = await open(site, body, { head: COUNT });
+    await move(page);
+    const hand = await mouse(page);
+    await hand.rest(REST);
+    await page.evaluate(() => (reads.length = 0));
+    const { reads: all, perFrame } = await move(page, hand);
+    await close();
+    const of = (name) => all.filter((read) => read.name === name).length;
+    assert.ok(of("getBoundingClientRect") > 1000, "the boxes are read");
+    assert.ok(of("getComputedStyle") < 100, `${of("getComputedStyle")} styles in ${perFrame.length} frames`);
+  });
+
   it("are of the rows that can be seen: of five thousand in a scroller those take part", async () => {
     const rows = Array.from({ length: 5000 }, (_, k) => `<li class="target" id="t${k}" style="width: 300px; height: 30px"></li>`);
     const body = `<ul id="list" class="place" style="left: 500px; top: 50px; height: 600px; overflow: auto; margin: 0; padding: 0">${rows.join("")}</ul>`;

@@ -4,6 +4,7 @@
  * @module
  */
 import type { Platform, Stop } from "../platform.js";
+import type { Target } from "../targets.js";
 
 export class Changes {
   /** Elements may have moved. */
@@ -58,15 +59,33 @@ export class Changes {
     };
   }
 
-  /** Whether all of it was written by a watcher, this one or another. */
-  isDecoration(records: readonly MutationRecord[]): boolean {
-    return records.every(({ attributeName, oldValue, target }) => {
-      if (attributeName !== "style") return attributeName === "data-predicted";
-      return withoutDecoration(oldValue) === withoutDecoration((target as Element).getAttribute("style"));
-    });
+  /**
+   * Takes in what was written in style attributes, passing over what watchers, this one or others, wrote there: as of what is
+   * animated, only what is in these elements may have another style. Gives whether that is all that has changed.
+   */
+  restyle(records: readonly MutationRecord[], targets: Iterable<Target>): boolean {
+    const own = records.filter((record) => !isDecoration(record));
+    if (own.some(({ attributeName }) => attributeName !== "style")) return false;
+    if (own.length === 0) return true;
+    const nodes = [...new Set(own.map(({ target }) => target))];
+    const isIn = (element: Element | null, node: Node) => node.contains(element) || node.getRootNode() !== element?.getRootNode();
+    for (const target of targets) if (nodes.some((node) => isIn(target.element, node))) target.styled = false;
+    this.move();
+    return true;
   }
 }
 
-function withoutDecoration(style: string | null): string | null {
-  return style?.replace(/--probability:[^;]*;?/, "").trim() || null;
+function isDecoration({ attributeName, oldValue, target }: MutationRecord): boolean {
+  if (attributeName !== "style") return attributeName === "data-predicted";
+  const now = (target as Element).getAttribute("style");
+  const other = (style: string | null) => style?.replace(/--probability:[^;]*;?/, "").trim() || null;
+  if (other(oldValue) === other(now)) return true;
+  // the first time it becomes the text that the browser writes for it
+  const scratch = (target.ownerDocument as Document).createElement("i").style;
+  const written = (style: string | null) => {
+    scratch.cssText = style ?? "";
+    scratch.removeProperty("--probability");
+    return scratch.cssText;
+  };
+  return written(oldValue) === written(now);
 }

@@ -139,8 +139,12 @@ export class Layout {
     for (const target of this.#covered) if (now - target.checked >= OUTDATED) this.#doubt(target);
     if (!changes.moved && !begun && !this.#probed(leading)) return this.#stale;
     this.#reframe();
-    if (changes.restyled) this.#restyle();
-    for (const target of this.#targets.all) this.#measure(target);
+    if (changes.moved) this.#documents = new WeakMap();
+    for (const target of this.#targets.all) {
+      if (changes.restyled) target.styled = false;
+      if (changes.moved) this.#doubt(target);
+      this.#measure(target);
+    }
     changes.moved = changes.restyled = false;
     return this.#stale;
   }
@@ -243,11 +247,6 @@ export class Layout {
     if (!view || view === this.#platform.window) return box;
     const { across, down } = this.#frame(view);
     return { ...this.toMain(view, { x: box.x, y: box.y }), width: box.width * across, height: box.height * down };
-  }
-
-  #restyle(): void {
-    this.#documents = new WeakMap();
-    for (const target of this.#targets.all) target.styled = false;
   }
 
   #isUsable(element: Element): boolean {
