@@ -172,7 +172,7 @@ export class Demonstration {
   /** A ring opens; that of the pressed icon stays as long as its light. */
   #release({ target, pressed }: Release<Icon>, simulated: boolean): void {
     this.#ringed.delete(target);
-    if (pressed) this.#press(target);
+    if (pressed) this.#glowPressed(target);
     else if (this.#glowing === null) this.#describe(simulated);
   }
 
@@ -187,7 +187,7 @@ export class Demonstration {
       mistaken: outcome.mistaken && this.#labelOf(outcome.mistaken),
       lead: outcome.lead,
     };
-    if (!this.#pressed) this.#press(null);
+    if (!this.#pressed) this.#glowPressed(null);
     screen.acknowledge(press.index);
     chart.draw(this.#history.take(press.time - press.lead), press);
     numbers.last(press, simulated);
@@ -210,7 +210,7 @@ export class Demonstration {
     else this.#views.status.write(text);
   }
 
-  #press(held: Icon | null): void {
+  #glowPressed(held: Icon | null): void {
     this.#glow(held);
     this.#pressed = true;
   }
