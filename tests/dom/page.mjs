@@ -1,5 +1,6 @@
 // Pages whose watchers keep a log, and pointer events with a clock of their own, for what Chromium's own pointer cannot do.
-import { open as openPage } from "./support.mjs";
+import { movement } from "../browser/hand.mjs";
+import { open as openPage, REST } from "./support.mjs";
 
 export { hosted, mouse, nextFrame, REST } from "./support.mjs";
 
@@ -44,6 +45,13 @@ export function read(page, name = "watcher") {
     await frames(2);
     return posterior(window[name]);
   }, name);
+}
+
+/** A hand of Chromium's own that goes to a place, from where it rests. */
+export async function reach(hand, goal, { from = AWAY, ...options } = {}) {
+  await hand.play([[0, from.x, from.y]]);
+  await hand.rest(REST);
+  await hand.play(movement(from, goal, 60, { seed: 1, ...options }));
 }
 
 /**
