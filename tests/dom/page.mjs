@@ -60,7 +60,9 @@ export async function reach(hand, goal, { from = AWAY, ...options } = {}) {
  */
 export async function scripted(site, options = "{}", body = ROW) {
   const opened = await open(site, body, {
-    script: `window.watcher = record("button", { predictor: scriptedPredictor, rest: 600, ...${options} }); await frames(3);`,
+    script: `window.watcher = record("button", { predictor: scriptedPredictor, rest: 600, ...${options} });
+      await watcher.ready;
+      await frames(3);`,
   });
   const { page } = opened;
   return {
