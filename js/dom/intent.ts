@@ -4,11 +4,12 @@
  *
  * @module
  */
+import type { Calls } from "./calls.js";
 import type { Hand, Scope } from "./hand.js";
 import type { Settings } from "./options.js";
 import type { Platform, Stop } from "./platform.js";
 import { idOf, isDisabled, type Target } from "./targets.js";
-import type { Intent, Reason, Release } from "./types.js";
+import type { Intent, Reason } from "./types.js";
 
 /** Milliseconds for which a finger has to be on a target: it may be about to scroll the page. */
 export const TOUCH = 80;
@@ -27,16 +28,11 @@ interface Open {
   readonly scope: Scope;
 }
 
-export interface IntentSinks {
-  begun(intent: Intent, target: Target): unknown;
-  ended(release: Release): void;
-  failed(error: unknown): void;
-}
-
 export class Intents {
   readonly #platform: Platform;
   readonly #settings: () => Settings;
-  readonly #sinks: IntentSinks;
+  readonly #calls: Calls;
+  readonly #changed: () => void;
   readonly #hands: () => Iterable<Hand>;
   readonly #open = new Map<Target, Open>();
   readonly #begun: number[] = [];
@@ -47,11 +43,13 @@ export class Intents {
   #focused = new Set<Target>();
   readonly #viewport: Sign = { scope: { spent: new Set() } };
 
-  constructor(platform: Platform, settings: () => Settings, hands: () => Iterable<Hand>, sinks: IntentSinks) {
+  /** `changed` is called when another target is meant, or one no longer. */
+  constructor(platform: Platform, settings: () => Settings, hands: () => Iterable<Hand>, calls: Calls, changed: () => void) {
     this.#platform = platform;
     this.#settings = settings;
     this.#hands = hands;
-    this.#sinks = sinks;
+    this.#calls = calls;
+    this.#changed = changed;
   }
 
   /** The targets that are meant now. */
@@ -176,14 +174,16 @@ export class Intents {
       name: settings.name,
       data: settings.data,
     };
-    if (this.#settings().decorate) target.element?.setAttribute(PREDICTED, "true");
-    dispatch(this.#settings(), target, "intent", intent);
+    // before the page is called: it may end it at once
     this.#open.set(target, { intent, controller, scope });
     this.#running.add(intent);
+    if (this.#settings().decorate) target.element?.setAttribute(PREDICTED, "true");
+    dispatch(this.#settings(), target, "intent", intent);
     const done = () => this.#running.delete(intent);
-    Promise.resolve(this.#sinks.begun(intent, target)).then(done, (error: unknown) => {
+    this.#changed();
+    Promise.resolve(this.#calls.call(settings.onIntent ?? this.#settings().onIntent, intent)).then(done, (error: unknown) => {
       done();
-      if ((error as Error | null)?.name !== "AbortError") this.#sinks.failed(error);
+      if ((error as Error | null)?.name !== "AbortError") this.#calls.report(error);
     });
   }
 
@@ -200,7 +200,8 @@ export class Intents {
     target.element?.removeAttribute(PREDICTED);
     const release = { ...open.intent, pressed };
     dispatch(this.#settings(), target, "release", release);
-    this.#sinks.ended(release);
+    this.#changed();
+    this.#calls.call(this.#settings().onRelease, release);
   }
 
   #wait(key: Hand | Target, milliseconds: number, run: () => void): void {

@@ -18,8 +18,7 @@ export type Listeners = Readonly<Record<string, (event: never) => void>>;
 /** What is loaded when a pointer moves. */
 export interface Loaded {
   readonly Prediction: typeof Prediction;
-  readonly surface: Surface;
-  readonly core: MakePredictor;
+  surface(): Surface;
 }
 
 /** What is used of the browser's observers. */
@@ -43,8 +42,10 @@ export interface Platform {
   visibility(changed: (element: Element, visible: boolean) => void): Visibility | null;
   /** Calls back when something changes in the trees of the nodes. */
   mutations(changed: (records: readonly MutationRecord[]) => void): Mutations | null;
-  /** The part that predicts, and the core unless there is another model. */
-  load(own: MakePredictor | undefined): Promise<Loaded>;
+  /** The part that predicts. */
+  loadPrediction(): Promise<Loaded>;
+  /** The core: what makes predictors, unless the options do. */
+  loadCore(): Promise<MakePredictor>;
   /** What finds tab stops. */
   loadKeyboard(): Promise<FindStopsAhead>;
   /** As an uncaught error would be. */
@@ -95,9 +96,11 @@ export function browser(): Platform | null {
       return new IntersectionObserver(callback, { threshold: [0, 1e-6] });
     },
     mutations: (changed) => (typeof MutationObserver === "function" ? new MutationObserver(changed) : null),
-    async load(own) {
-      const [{ Prediction, surface }, core] = await Promise.all([import("#prediction"), own ?? loadCore()]);
-      return { Prediction, surface: surface(), core };
+    loadPrediction: () => import("#prediction"),
+    async loadCore() {
+      const { init, PointerPredictor } = await import("#pointing");
+      await init();
+      return (targets, options) => new PointerPredictor(targets, options);
     },
     async loadKeyboard() {
       return (await import("#keyboard")).stopsAhead;
@@ -109,12 +112,6 @@ export function browser(): Platform | null {
       });
     },
   };
-}
-
-async function loadCore(): Promise<MakePredictor> {
-  const { init, PointerPredictor } = await import("#pointing");
-  await init();
-  return (targets, options) => new PointerPredictor(targets, options);
 }
 
 export function attempt<T>(run: () => T): T | null {

@@ -67,7 +67,7 @@ export interface TargetOptions {
   /** In place of the watcher's. @defaultValue the watcher's */
   readonly threshold?: number | undefined;
   /** By how many px its box is larger than the element, for the posterior and for hover. @defaultValue 0 */
-  readonly hitSlop?: number | { top?: number; right?: number; bottom?: number; left?: number } | undefined;
+  readonly hitSlop?: number | Partial<Record<"top" | "right" | "bottom" | "left", number | undefined>> | undefined;
   /** `false`: it is never predicted and never meant. @defaultValue true */
   readonly enabled?: boolean | undefined;
   /** Called for this target in place of the watcher's. @defaultValue the watcher's */

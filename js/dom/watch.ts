@@ -20,7 +20,16 @@ import type { Prediction } from "./prediction/prediction.js";
 import { Presence } from "./presence.js";
 import { RESTING, snapshotOf } from "./snapshot.js";
 import { type Exchange, release, type Target, Targets } from "./targets.js";
-import type { Probable, Snapshot, TargetOptions, Watcher, WatchOptions, WatchTarget, WatchTargets } from "./types.js";
+import type {
+  MakePredictor,
+  Probable,
+  Snapshot,
+  TargetOptions,
+  Watcher,
+  WatchOptions,
+  WatchTarget,
+  WatchTargets,
+} from "./types.js";
 
 const dispose: typeof Symbol.dispose = disposeName;
 
@@ -84,8 +93,8 @@ class PageWatcher implements Watcher, PointerSinks {
     this.ready = new Promise<void>((resolve) => {
       this.#load = resolve;
     })
-      .then(() => platform.load(this.#settings.predictor))
-      .then((loaded) => this.#predict(loaded));
+      .then(() => Promise.all([platform.loadPrediction(), this.#settings.predictor ? null : platform.loadCore()]))
+      .then(([loaded, core]) => this.#predict(loaded, core));
     // nobody has to wait for it
     this.ready.catch((error: unknown) => {
       this.#kept = null;
@@ -93,17 +102,13 @@ class PageWatcher implements Watcher, PointerSinks {
     });
     const settings = () => this.#settings;
     this.#calls = new Calls(platform, () => this.#settings.onError);
-    this.#intents = new Intents(platform, settings, () => this.#hands.values(), {
-      begun: (intent, target) => {
-        this.#request();
-        return this.#calls.call(target.settings.onIntent ?? this.#settings.onIntent, intent);
-      },
-      ended: (release) => {
-        this.#request();
-        this.#calls.call(this.#settings.onRelease, release);
-      },
-      failed: this.#calls.report,
-    });
+    this.#intents = new Intents(
+      platform,
+      settings,
+      () => this.#hands.values(),
+      this.#calls,
+      () => this.#request(),
+    );
     this.#presence = new Presence(platform, this.#targets, {
       changed: (records) => {
         if (this.#prediction?.changes.restyle(records, this.#targets.all)) return;
@@ -359,11 +364,11 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#publish();
   }
 
-  #predict({ Prediction, core, surface }: Loaded): void {
+  #predict({ Prediction, surface }: Loaded, core: MakePredictor | null): void {
     if (this.#state === "stopped") return;
     const prediction = new Prediction(core, {
       platform: this.#platform,
-      surface,
+      surface: surface(),
       targets: this.#targets,
       settings: () => this.#settings,
       intents: this.#intents,

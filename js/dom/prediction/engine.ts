@@ -10,7 +10,9 @@ import type { Movement } from "./movements.js";
 
 export class Engine {
   readonly #settings: () => Settings;
-  readonly #core: MakePredictor;
+  readonly #load: () => Promise<MakePredictor>;
+  readonly #failed: (error: unknown) => void;
+  #core: MakePredictor | null;
   /** Of pointers that are gone, for those that come. */
   readonly #idle: Predictor[] = [];
   #generation = 0;
@@ -19,10 +21,17 @@ export class Engine {
   /** The generation in which no predictor could be made. */
   #refused = -1;
 
-  /** `core` makes predictors where the options do not. */
-  constructor(settings: () => Settings, core: MakePredictor) {
+  /** `core` makes predictors where the options do not; null where it is not loaded, since they did: `load` loads it when they do not. */
+  constructor(
+    settings: () => Settings,
+    core: MakePredictor | null,
+    load: () => Promise<MakePredictor>,
+    failed: (error: unknown) => void,
+  ) {
     this.#settings = settings;
     this.#core = core;
+    this.#load = load;
+    this.#failed = failed;
   }
 
   /** Counts how often the options that predictors are made with have changed. */
@@ -36,7 +45,10 @@ export class Engine {
     for (const predictor of this.#idle.splice(0)) predictor.free();
   }
 
-  /** A predictor with these targets; null where the options have constants that it refuses, with an error the first time. */
+  /**
+   * A predictor with these targets; null where the core is not loaded yet, and where the options have constants that it refuses, with an
+   * error the first time.
+   */
   borrow(targets: readonly PredictedTarget[]): Predictor | null {
     if (this.#refused === this.#generation) return null;
     const { none, constants, predictor } = this.#settings();
@@ -44,7 +56,15 @@ export class Engine {
     idle?.setTargets(targets);
     if (idle) return idle;
     this.#refused = this.#generation;
-    const made = (predictor ?? this.#core)(targets, { none, constants });
+    const make = predictor ?? this.#core;
+    if (!make) {
+      this.#load().then((core) => {
+        this.#core = core;
+        this.#refused = -1;
+      }, this.#failed);
+      return null;
+    }
+    const made = make(targets, { none, constants });
     this.#refused = -1;
     return made;
   }

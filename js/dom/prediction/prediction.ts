@@ -63,9 +63,9 @@ export class Prediction {
   #leading: readonly Target[] = [];
   #posterior: Posterior | null = null;
 
-  constructor(core: MakePredictor, parts: Parts) {
+  constructor(core: MakePredictor | null, parts: Parts) {
     this.#parts = parts;
-    this.#engine = new Engine(parts.settings, core);
+    this.#engine = new Engine(parts.settings, core, () => parts.platform.loadCore(), parts.failed);
     this.changes = new Changes(parts.platform, parts.changed);
     this.#layout = new Layout(parts, this.changes);
   }

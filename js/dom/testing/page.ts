@@ -197,8 +197,12 @@ export class TestPage implements Platform {
     };
   }
 
-  load(own: MakePredictor | undefined): Promise<Loaded> {
-    return Promise.resolve({ Prediction, surface: this.surface, core: own ?? this.#core });
+  loadPrediction(): Promise<Loaded> {
+    return Promise.resolve({ Prediction, surface: () => this.surface });
+  }
+
+  loadCore(): Promise<MakePredictor> {
+    return Promise.resolve(this.#core);
   }
 
   loadKeyboard(): Promise<FindStopsAhead> {
