@@ -7,19 +7,21 @@ import type { Hand } from "../hand.js";
 import { type Intents, TOUCH } from "../intent.js";
 import type { Settings } from "../options.js";
 import type { Target } from "../targets.js";
+import type { PointerPosterior } from "./engine.js";
+
+/**
+ * So much have the odds of a target to rise over those before the movement. A posterior above the threshold is not enough where
+ * there is one target alone: nearly all of its prior is above it, wherever the pointer goes.
+ */
+const RISE = 1.5;
 
 export class Candidates {
   #since: ReadonlyMap<Target, number> = new Map();
 
-  /** Takes a posterior that was computed at a time, in milliseconds, with so much for each target. */
-  consider(
-    hand: Hand,
-    targets: readonly Target[],
-    probabilities: Float64Array,
-    now: number,
-    { reasons, threshold }: Settings,
-    intents: Intents,
-  ): void {
+  /** Takes a posterior that was computed at a time, in milliseconds. */
+  consider(hand: Hand, posterior: PointerPosterior, now: number, settings: Settings, intents: Intents): void {
+    const { reasons, threshold, none } = settings;
+    const { targets, probabilities } = posterior;
     const before = this.#since;
     const since = new Map<Target, number>();
     this.#since = since;
@@ -28,7 +30,9 @@ export class Candidates {
     const after = hand.isTouch ? Math.max(TOUCH, reasons.pointer) : reasons.pointer;
     for (let i = 0; i < targets.length; i++) {
       const target = targets[i] as Target;
-      if ((probabilities[i] as number) < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
+      const probability = probabilities[i] as number;
+      if (probability < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
+      if (odds(probability) < RISE * odds((1 - none) * posterior.prior(i))) continue;
       const first = before.get(target) ?? now;
       since.set(target, first);
       if (now - first >= after) intents.begin(target, "pointer", hand);
@@ -38,4 +42,8 @@ export class Candidates {
   clear(): void {
     this.#since = new Map();
   }
+}
+
+function odds(probability: number): number {
+  return probability / (1 - probability);
 }

@@ -155,8 +155,7 @@ export class Prediction {
       if (!known) continue;
       const best = posterior.best();
       if (best && fresh) track.movement?.note(best, posterior.probability(best));
-      const { targets, probabilities } = posterior;
-      track.candidates.consider(track.hand, targets, probabilities, platform.now(), settings(), intents);
+      track.candidates.consider(track.hand, posterior, platform.now(), settings(), intents);
     }
     return true;
   }
