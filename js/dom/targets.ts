@@ -102,14 +102,14 @@ export class Targets {
     return this.change({ given: new Set([...this.#given, ...added]), readmitted: added });
   }
 
-  /** Watches these no longer. */
-  remove(nodes: readonly WatchTarget[]): Exchange {
+  /** Watches these no longer; what is wrong with others by now is reported. */
+  remove(nodes: readonly WatchTarget[], report: (error: unknown) => void): Exchange {
     const given = new Set(this.#given);
     for (const node of nodes) {
       if (this.find(node)) this.#removed.add(node);
       given.delete(node);
     }
-    return this.change({ given });
+    return this.change({ given, report });
   }
 
   /** Sets what holds for one target; null for what the options have. */

@@ -167,7 +167,7 @@ class PageWatcher implements Watcher, PointerSinks {
   }
 
   remove(...nodes: WatchTarget[]): void {
-    this.#take(this.#targets.remove(nodes));
+    this.#take(this.#targets.remove(nodes, this.#calls.report));
   }
 
   refresh(): void {

@@ -12,11 +12,13 @@ export interface ElementOptions {
   readonly parent?: TestElement;
   /** @defaultValue none */
   readonly attributes?: Readonly<Record<string, string>>;
+  /** The shadow root that it is in. @defaultValue none */
+  readonly shadow?: { readonly host: Element; readonly mode: "open" | "closed" };
 }
 
 export class TestElement extends EventTarget {
   readonly nodeType = 1;
-  readonly style = new TestStyle();
+  readonly style = new TestStyle((oldValue) => this.#report("style", oldValue));
   readonly ownerDocument: Document;
   readonly parentElement: TestElement | null;
   /** Where it is, in the viewport's px. */
@@ -26,8 +28,9 @@ export class TestElement extends EventTarget {
   readonly #page: TestPage;
   readonly #tag: string;
   readonly #attributes: Map<string, string>;
+  readonly #root: Node;
 
-  constructor(page: TestPage, tag: string, box: Bounds, { parent, attributes = {} }: ElementOptions) {
+  constructor(page: TestPage, tag: string, box: Bounds, { parent, attributes = {}, shadow }: ElementOptions) {
     super();
     this.#page = page;
     this.#tag = tag;
@@ -35,6 +38,7 @@ export class TestElement extends EventTarget {
     this.ownerDocument = page.document;
     this.parentElement = parent ?? null;
     this.box = box;
+    this.#root = (shadow ?? page.document) as Node;
   }
 
   get id(): string {
@@ -46,23 +50,35 @@ export class TestElement extends EventTarget {
   }
 
   get parentNode(): Node {
-    return (this.parentElement ?? this.ownerDocument) as unknown as Node;
+    return (this.parentElement ?? this.#root) as unknown as Node;
   }
 
   getRootNode(): Node {
-    return this.ownerDocument;
+    return this.#root;
+  }
+
+  querySelectorAll(selector: string): TestElement[] {
+    return this.#page.elements.filter((element) => element !== this && this.contains(element) && element.matches(selector));
   }
 
   getAttribute(name: string): string | null {
-    return this.#attributes.get(name) ?? null;
+    return name === "style" ? this.style.cssText || null : (this.#attributes.get(name) ?? null);
   }
 
   setAttribute(name: string, value: string): void {
-    this.#change(name, () => this.#attributes.set(name, value));
+    if (name === "style") this.style.cssText = value;
+    else this.#change(name, () => this.#attributes.set(name, value));
   }
 
   removeAttribute(name: string): void {
-    if (this.#attributes.has(name)) this.#change(name, () => this.#attributes.delete(name));
+    if (this.getAttribute(name) === null) return;
+    if (name === "style") this.style.cssText = "";
+    else this.#change(name, () => this.#attributes.delete(name));
+  }
+
+  contains(other: TestElement | null): boolean {
+    for (let at = other; at; at = at.parentElement) if (at === this) return true;
+    return false;
   }
 
   /** Of selectors it knows lists of `*`, `tag`, `[name]`, `[name=value]` and `:disabled`. */
@@ -87,12 +103,34 @@ export class TestElement extends EventTarget {
   #change(attributeName: string, run: () => void): void {
     const oldValue = this.getAttribute(attributeName);
     run();
+    this.#report(attributeName, oldValue);
+  }
+
+  #report(attributeName: string, oldValue: string | null): void {
     this.#page.changed([{ type: "attributes", target: this, attributeName, oldValue }]);
   }
 }
 
-class TestStyle {
+export class TestStyle {
   readonly #properties = new Map<string, string>();
+  readonly #changed: (before: string | null) => void;
+
+  /** `changed` is called after every change, with the text before it. */
+  constructor(changed: (before: string | null) => void) {
+    this.#changed = changed;
+  }
+
+  get cssText(): string {
+    return Array.from(this.#properties, ([name, value]) => `${name}: ${value};`).join(" ");
+  }
+
+  set cssText(text: string) {
+    this.#change(() => {
+      this.#properties.clear();
+      for (const [, name, value] of text.matchAll(/([\w-]+)\s*:\s*([^;]+)/g))
+        this.#properties.set(name as string, value as string);
+    });
+  }
 
   get length(): number {
     return this.#properties.size;
@@ -103,10 +141,16 @@ class TestStyle {
   }
 
   setProperty(name: string, value: string): void {
-    this.#properties.set(name, value);
+    this.#change(() => this.#properties.set(name, value));
   }
 
   removeProperty(name: string): void {
-    this.#properties.delete(name);
+    if (this.#properties.has(name)) this.#change(() => this.#properties.delete(name));
+  }
+
+  #change(run: () => void): void {
+    const before = this.cssText || null;
+    run();
+    this.#changed(before);
   }
 }

@@ -27,7 +27,7 @@ import type { Surface } from "../prediction/surface.js";
 import type { MakePredictor, Watcher, WatchOptions, WatchTargets } from "../types.js";
 import { watchOn } from "../watch.js";
 import { Clock } from "./clock.js";
-import { type ElementOptions, TestElement } from "./element.js";
+import { type ElementOptions, TestElement, TestStyle } from "./element.js";
 
 /** Fields of an event besides its time, place and path. */
 export type EventFields = Readonly<Record<string, unknown>>;
@@ -46,6 +46,8 @@ export class TestPage implements Platform {
   /** What was reported as uncaught. */
   readonly errors: unknown[] = [];
   readonly surface: Surface;
+  /** How often the layout was read: boxes of elements, their styles, what is at a place. */
+  readonly reads = { boxes: 0, styles: 0, places: 0 };
   readonly #core: MakePredictor;
   readonly #tabStops: FindStopsAhead;
   readonly #visible = new Map<TestElement, boolean>();
@@ -67,16 +69,26 @@ export class TestPage implements Platform {
       defaultView: {},
       hidden: false,
       getRootNode: () => this.document,
+      createElement: () => ({ style: new TestStyle(() => {}) }),
       querySelectorAll: (selector: string) => this.elements.filter((element) => element.matches(selector)),
     } as never;
     this.window = this.document.defaultView as Window;
     Object.assign(this.window, { document: this.document });
     this.surface = {
-      box: (element) => (element as never as TestElement).box,
+      box: (element) => {
+        this.reads.boxes++;
+        return (element as never as TestElement).box;
+      },
       frameOf: () => ({ x: 0, y: 0, across: 1, down: 1 }),
-      isUsable: (element) => (element as never as TestElement).usable && !element.matches(":disabled, [aria-disabled=true]"),
+      isUsable: (element) => {
+        this.reads.styles++;
+        return (element as never as TestElement).usable && !element.matches(":disabled, [aria-disabled=true]");
+      },
       modals: () => this.modals as never,
-      topmost: (_, x, y) => this.at(x, y) as never,
+      topmost: (_, x, y) => {
+        this.reads.places++;
+        return this.at(x, y) as never;
+      },
     };
   }
 
