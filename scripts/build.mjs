@@ -99,9 +99,17 @@ async function bundle() {
 async function bundleForPages() {
   const { rolldown } = await import("rolldown");
   const known = aliases("pointing");
-  const resolveId = (id) => known[id] && { ...known[id], id: known[id].path };
+  const aliasing = { name: "aliases", resolveId: (id) => known[id] && { ...known[id], id: known[id].path } };
+  // not every tool takes a template literal for an address; as long as it was, so that the maps hold
+  const quoting = {
+    name: "quotes",
+    generateBundle(_, files) {
+      for (const file of Object.values(files))
+        if (file.type === "chunk") file.code = file.code.replace(/\bimport\(`([^`$]+)`\)/g, 'import("$1")');
+    },
+  };
   for (const input of [{ dom: "js/entries/dom.ts" }, { prediction: "js/dom/prediction/prediction.ts" }]) {
-    const bundle = await rolldown({ cwd: root, input, tsconfig: false, plugins: [{ name: "aliases", resolveId }] });
+    const bundle = await rolldown({ cwd: root, input, tsconfig: false, plugins: [aliasing, quoting] });
     const minify = { compress: { target: syntax.target }, mangle: true, codegen: true };
     await bundle.write({ dir: dist, format: "es", minify, sourcemap: true, comments: { legal: false } });
     await bundle.close();
