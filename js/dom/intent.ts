@@ -8,7 +8,7 @@ import type { Calls } from "./calls.js";
 import type { Hand, Scope } from "./hand.js";
 import type { Settings } from "./options.js";
 import type { Platform, Stop } from "./platform.js";
-import { idOf, isDisabled, type Target } from "./targets.js";
+import { idOf, isDisabled, isGone, type Target } from "./targets.js";
 import type { Intent, Reason } from "./types.js";
 
 /** Milliseconds for which a finger has to be on a target: it may be about to scroll the page. */
@@ -86,13 +86,15 @@ export class Intents {
 
   /** The focus moved: `target` has it, `ahead` are at most so many tab stops away. */
   focus(target: Target | null, ahead: readonly Target[]): void {
+    const focused = new Set(ahead);
     this.#focus = { scope: { spent: new Set() } };
-    this.#focused = new Set(ahead);
+    this.#focused = focused;
     if (target) {
-      this.#focused.add(target);
+      focused.add(target);
       if (this.#settings().reasons.focus) this.begin(target, "focus", this.#focus);
     }
-    for (const each of ahead) this.begin(each, "keyboard", this.#focus);
+    // the page that is called may move the focus on, or stop everything
+    for (const each of ahead) if (this.#focused === focused) this.begin(each, "keyboard", this.#focus);
     this.review();
   }
 
@@ -133,6 +135,7 @@ export class Intents {
   clear(): void {
     for (const stop of this.#waiting.values()) stop();
     this.#waiting.clear();
+    this.#focused = new Set();
     for (const target of this.targets) this.#end(target, false);
   }
 
@@ -153,7 +156,7 @@ export class Intents {
     const { reactivate, limit } = this.#settings();
     const { scope, predicted } = sign;
     const now = this.#platform.now();
-    if (this.#open.has(target) || target.settings.enabled === false) return;
+    if (this.#open.has(target) || isGone(target) || target.settings.enabled === false) return;
     if (target.element && isDisabled(target.element)) return;
     if (reactivate === null ? scope.spent.has(target) : now - target.meant < reactivate) return;
     while (this.#begun[0] !== undefined && now - this.#begun[0] >= MINUTE) this.#begun.shift();
@@ -179,6 +182,8 @@ export class Intents {
     this.#running.add(intent);
     if (this.#settings().decorate) target.element?.setAttribute(PREDICTED, "true");
     dispatch(this.#settings(), target, "intent", intent);
+    // by a listener
+    if (controller.signal.aborted) return;
     const done = () => this.#running.delete(intent);
     this.#changed();
     Promise.resolve(this.#calls.call(settings.onIntent ?? this.#settings().onIntent, intent)).then(done, (error: unknown) => {

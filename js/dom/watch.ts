@@ -241,6 +241,8 @@ class PageWatcher implements Watcher, PointerSinks {
     const before = hand.over ?? over ?? [];
     hand.place = place ?? hand.place;
     if (over) this.#over(hand, over, "hover");
+    // the page that was called may have stopped or paused this
+    if (!this.#hands.has(pointer.pointerId)) return;
     const now = this.#platform.now();
     this.#load();
     this.#predicting((prediction) => {

@@ -36,6 +36,8 @@ export class Candidates {
       const first = before.get(target) ?? now;
       since.set(target, first);
       if (now - first >= after) intents.begin(target, "pointer", hand);
+      // the page that was called may have ended the movement
+      if (hand.predicted?.movement !== movement) return;
     }
   }
 
