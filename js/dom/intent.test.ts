@@ -45,7 +45,7 @@ const EVENLY = {
   none: 0,
   remaining: null,
   observe() {},
-  probabilities: (into = new Float64Array(3)) => into.fill(0.4),
+  probabilities: (into = new Float64Array(3)) => into.fill(0.45),
   setTargets() {},
   reset() {},
   free() {},

@@ -142,7 +142,7 @@ const REASONS: Table = {
 const LIMIT: Table = { running: [notNegative, Infinity], perMinute: [notNegative, Infinity] };
 
 const OPTIONS: Table = {
-  root: [has("querySelectorAll", "a document, an element or a shadow root")],
+  root: [has("querySelectorAll", "a document or a root")],
   threshold: [share, 0.8],
   release: [share],
   none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.05],
@@ -155,7 +155,7 @@ const OPTIONS: Table = {
     (value, path) =>
       Array.isArray(value)
         ? value.map((type, i) => text(type, `${path}[${i}]`))
-        : refuse("wrong-type", path, "must be a list of types of pointers", value),
+        : refuse("wrong-type", path, "must be a list", value),
     ["mouse", "pen", "touch"],
   ],
   raw: [flag, false],

@@ -10,8 +10,8 @@ import type { Target } from "../targets.js";
 import type { PointerPosterior } from "./engine.js";
 
 /**
- * So much have the odds of a target to rise over those before the movement. A posterior above the threshold is not enough where
- * there is one target alone: nearly all of its prior is above it, wherever the pointer goes.
+ * So much have the odds of a target to rise over those before the movement where its prior is above the threshold already, as it is
+ * where there is one target alone: wherever the pointer goes.
  */
 const RISE = 1.5;
 
@@ -31,8 +31,10 @@ export class Candidates {
     for (let i = 0; i < targets.length; i++) {
       const target = targets[i] as Target;
       const probability = probabilities[i] as number;
-      if (probability < (target.settings.threshold ?? threshold) || movement.isLeaving(target)) continue;
-      if (odds(probability) < RISE * odds((1 - none) * posterior.prior(i))) continue;
+      const enough = target.settings.threshold ?? threshold;
+      if (probability < enough || movement.isLeaving(target)) continue;
+      const prior = (1 - none) * posterior.prior(i);
+      if (prior >= enough && odds(probability) < RISE * odds(prior)) continue;
       const first = before.get(target) ?? now;
       since.set(target, first);
       if (now - first >= after) intents.begin(target, "pointer", hand);
