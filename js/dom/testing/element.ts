@@ -16,7 +16,11 @@ export interface ElementOptions {
   readonly shadow?: { readonly host: Element; readonly mode: "open" | "closed" };
 }
 
+let count = 0;
+
 export class TestElement extends EventTarget {
+  /** So that no two of them are equal. */
+  readonly number = count++;
   readonly nodeType = 1;
   readonly style = new TestStyle((oldValue) => this.#report("style", oldValue));
   readonly ownerDocument: Document;
