@@ -11,8 +11,9 @@ async function follow(tabs: number, loading?: Promise<FindStopsAhead>) {
   const form = page.append("form", { x: 0, y: 0, width: 300, height: 100 });
   const stops = [0, 100, 200].map((x) => page.append("input", { x, y: 0, width: 90, height: 30 }, { parent: form as never }));
   const ahead: FindStopsAhead = (focused, direction, most) => {
+    if (direction === 0) return [];
     const after = direction > 0 ? stops : stops.toReversed();
-    const at = after.indexOf(focused);
+    const at = after.indexOf(focused as Element);
     return after.slice(at + 1, at + 1 + most);
   };
   const moved: unknown[] = [];
@@ -53,10 +54,10 @@ describe("focus", () => {
     const { page, first, second, moved } = await follow(0);
     page.dispatch("pointerdown", first);
     page.dispatch("focusin", first);
-    assert.deepEqual(moved, []);
+    assert.deepEqual(moved, [[null, []]]);
     page.dispatch("keydown", first, { key: "Tab" });
     page.dispatch("focusin", second);
-    assert.deepEqual(moved, [[second, []]]);
+    assert.deepEqual(moved.at(-1), [second, []]);
   });
 
   it("leaves what had it, after a press too", async () => {
@@ -68,6 +69,19 @@ describe("focus", () => {
       [first, []],
       [null, []],
     ]);
+  });
+
+  it("moves from one element to the next without being nowhere between, and ends where it leaves the window", async () => {
+    const { page, first, second, moved } = await follow(0);
+    page.dispatch("focusin", first);
+    page.dispatch("focusout", first, { relatedTarget: second });
+    page.dispatch("focusin", second, { relatedTarget: first });
+    assert.deepEqual(moved, [
+      [first, []],
+      [second, []],
+    ]);
+    page.dispatch("focusout", second, { relatedTarget: null });
+    assert.deepEqual(moved.at(-1), [null, []]);
   });
 
   it("has so many stops ahead in the direction of the Tab key that moved it", async () => {

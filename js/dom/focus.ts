@@ -35,9 +35,12 @@ export function listenToFocus(
       direction = event.key !== "Tab" ? 0 : event.shiftKey ? -1 : 1;
     },
     focusin(event: FocusEvent) {
-      const path = event.composedPath();
-      if (!pressed) moved(path, direction === 0 ? [] : ahead(path[0] as Element, direction, tabs));
+      const path = pressed ? [] : event.composedPath();
+      moved(path, ahead(path[0], direction, tabs));
     },
-    focusout: () => moved([], []),
+    focusout({ relatedTarget }: FocusEvent) {
+      // else it is elsewhere in this window, which is reported next
+      if (!relatedTarget) moved([], []);
+    },
   });
 }

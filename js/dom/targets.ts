@@ -143,7 +143,7 @@ export class Targets {
         if (ids.has(one.id)) {
           // the first one has it
           resolved.set(target, { ...one, id: undefined });
-          refuse("duplicate-id", "target.id", "must not be another target's", one.id);
+          refuse("duplicate-id", "target.id", "must be no other target's", one.id);
         }
         ids.add(one.id);
       } catch (error) {
@@ -236,7 +236,7 @@ function readNodes(given: Exclude<WatchTargets, string>): WatchTarget[] {
 }
 
 function readNode(node: WatchTarget, path: string): WatchTarget {
-  if (typeof node !== "object" || node === null) refuse("wrong-type", path, "must be an element or a virtual target", node);
+  if (typeof node !== "object" || node === null) refuse("wrong-type", path, "must be an element or virtual target", node);
   if (isElement(node)) return node;
   text(node.id, `${path}.id`);
   if (isAbsent(node.bounds)) missing(`${path}.bounds`);

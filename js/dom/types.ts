@@ -62,7 +62,7 @@ export interface TargetOptions {
   readonly name?: string | undefined;
   /** Anything of yours that comes back with its intents and outcomes. @defaultValue none */
   readonly data?: unknown;
-  /** Its weight before any movement; only the ratios matter. @defaultValue 1 */
+  /** Its weight before any movement; only the ratios matter, and with 0 it is never predicted. @defaultValue 1 */
   readonly prior?: number | undefined;
   /** In place of the watcher's. @defaultValue the watcher's */
   readonly threshold?: number | undefined;
@@ -205,7 +205,10 @@ export interface WatchOptions<T extends WatchTarget = WatchTarget> {
 
 /** Watches targets: what {@link watch} returns. */
 export interface Watcher<T extends WatchTarget = WatchTarget> {
-  /** Fulfilled when the core is loaded, rejected where it cannot be; the page never has to wait for it. */
+  /**
+   * Fulfilled when the core is loaded, which `load` decides, rejected where it cannot be; the page never has to wait for it. On a server
+   * it stays pending.
+   */
   readonly ready: Promise<void>;
   /** What is watched now, in the order of the document for a selector. */
   readonly targets: readonly T[];

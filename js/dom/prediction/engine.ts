@@ -82,9 +82,7 @@ export class Engine {
   list(active: readonly Target[], learning: number | null, presses: (target: Target) => number): readonly PredictedTarget[] {
     if (active === this.#listed) return this.#list;
     this.#listed = active;
-    const priors = active.map(({ settings }) => settings.prior ?? 1);
-    // where all that can be pointed at now are 0, none is before another
-    const stated = priors.some((prior) => prior > 0) ? priors : priors.map(() => 1);
+    const stated = active.map(({ settings }) => settings.prior ?? 1);
     const total = stated.reduce((sum, prior) => sum + prior, 0);
     this.#list = active.map((target, i) => {
       const { x, y, width, height } = target.box as NonNullable<Target["box"]>;

@@ -70,7 +70,7 @@ export class Layout {
     this.#changes = changes;
   }
 
-  /** The targets that can be pointed at now. The same list until that changes, or one of them moves. */
+  /** The targets that can be pointed at now and may be predicted. The same list until that changes, or one of them moves. */
   get active(): readonly Target[] {
     if (this.#stale) {
       this.#stale = false;
@@ -298,7 +298,7 @@ function innerOf(element: Element | null): Window | null {
 }
 
 function isActive({ box, covered, settings }: Target): boolean {
-  return box !== null && !covered && settings.enabled !== false;
+  return box !== null && !covered && settings.enabled !== false && settings.prior !== 0;
 }
 
 /** Whether what is at a place of an element is that element, something in it, something around it, or its label. */

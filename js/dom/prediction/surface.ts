@@ -4,6 +4,7 @@
  * @module
  */
 import { attempt, hostOf } from "../platform.js";
+import { isDisabled } from "../targets.js";
 import type { Bounds } from "../types.js";
 
 /** Where a window's viewport is in the main window: scales and px. */
@@ -79,7 +80,7 @@ function frameOf(view: Window): Frame {
 
 function isUsable(element: Element): boolean {
   if (element.checkVisibility?.({ visibilityProperty: true }) === false) return false;
-  if (element.matches(":disabled, [aria-disabled=true]") || closest(element, "[inert]")) return false;
+  if (isDisabled(element) || closest(element, "[inert]")) return false;
   return getComputedStyle(element).pointerEvents !== "none";
 }
 
