@@ -89,6 +89,17 @@ describe("layout", () => {
     none("covered");
     page.remove(cover);
     back("covered");
+    const header = page.append("header", { ...target.box, y: 900 }) as Element & TestElement;
+    back("nothing");
+    for (const [y, covers] of [
+      [target.box.y, true],
+      [900, false],
+    ] as const) {
+      header.box = { ...header.box, y };
+      page.dispatch("scroll", null);
+      if (covers) none("scrolled under another");
+      else back("under another");
+    }
     const other = buttons.find((button) => button !== target) as Element & TestElement;
     page.modals.push(other);
     page.changed([{ type: "attributes", attributeName: "open" }]);
