@@ -38,7 +38,7 @@ export async function buildWasm({ dev = false } = {}) {
   const variant = dev ? " dev" : "";
   const compiled = modules.map(({ name }) => `target/wasm/${name}.wasm`);
   // Cargo by itself would compile all at every call, since they have the same output path.
-  const sources = ["src", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
+  const sources = ["src", "kernel", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml", "scripts/build-wasm.mjs"];
   await incremental("wasm-modules", { inputs: sources, outputs: compiled, variant, doing: null }, async () => {
     for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : module.profile);
   });

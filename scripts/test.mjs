@@ -27,7 +27,7 @@ const parts = {
     const pointing = ["--features", "wasm-pointing", "--lib"];
     await check("cargo", ["clippy", ...wasmTarget, ...pointing, "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
-    await tests("cargo", ["test", "--package", "whither", "--features", "fit"]);
+    await tests("cargo", ["test", "--package", "whither", "--package", "whither-kernel", "--features", "whither/fit"]);
     await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);
   },
   async wasm() {

@@ -13,7 +13,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 pub const LN_2_PI: f64 = 1.837_877_066_409_345_6;
 
 /// A deviation whose square is no number with all its digits.
-pub const VANISHING: f64 = 1e-150;
+pub use whither_kernel::small_gaussian::VANISHING;
 
 /// A Gaussian over a vector: mean and covariance.
 ///

@@ -4,9 +4,10 @@ pub mod cosine;
 pub mod decay;
 pub mod gaussian;
 pub mod kalman;
-pub(crate) mod kernel;
 pub mod log_sum_exp;
 pub mod quadrature;
 pub mod random;
-pub(crate) mod small_gaussian;
 pub mod van_loan;
+
+#[cfg(test)]
+mod tests;

@@ -4,9 +4,9 @@ use super::arrival::Arrival;
 use super::matrix::Matrix;
 use super::per_axis::PerAxis;
 use crate::error::{Code, Error, Result};
-use crate::math::kernel::mixture::AXES;
 use crate::value::{Node, Path, Value, quote};
 use serde::{Serialize, Serializer};
+use whither_kernel::mixture::AXES;
 
 mod class;
 mod list;

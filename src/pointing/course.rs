@@ -6,9 +6,9 @@
 use super::parameters::PointingConstants;
 use super::{Space, Vector, dot, minus, vector};
 use crate::error::Result;
-use crate::math::kernel::mixture::AXES;
-use crate::math::small_gaussian::axis_filter::{AxisFilter, AxisFilters, Step};
 use crate::value::{Node, Value};
+use whither_kernel::mixture::AXES;
+use whither_kernel::small_gaussian::axis_filter::{AxisFilter, AxisFilters, Step};
 
 /// The shortest step that the filter takes, in seconds: nearly equal times must not make the velocity certain.
 const SHORTEST_STEP: f64 = 1e-4;

@@ -13,11 +13,11 @@ use super::parameters::{PointingConstants, TimeToGo};
 use super::targets::Extent;
 use super::{Space, Symmetric, Vector, dot, minus};
 use crate::math::gaussian::LN_2_PI;
-use crate::math::kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
-use crate::math::kernel::vectors::{Block, Lanes, Number, WIDTH};
 use crate::math::log_sum_exp::{log_sum_exp, share};
-use crate::math::small_gaussian::{inverse, times};
 use std::ops::Range;
+use whither_kernel::mixture::{Density, HALF_LOG2_E, SharedDensity};
+use whither_kernel::small_gaussian::{inverse, times};
+use whither_kernel::vectors::{Block, Lanes, Number, WIDTH};
 
 /// One (scale, time to go).
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::targets::Extent;
 use super::{Vector, dot};
-use crate::math::small_gaussian::{inverse, times};
+use whither_kernel::small_gaussian::{inverse, times};
 
 /// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
 /// that it may be going to, and how long the movement has lasted. The nodes' own mean is too early, since their work is to

@@ -6,7 +6,7 @@ use super::evidence::{log_near, log_start};
 use super::minus;
 use super::parameters::PointingConstants;
 use super::targets::Targets;
-use crate::math::kernel::vectors::{Block, WIDTH};
+use whither_kernel::vectors::{Block, WIDTH};
 
 /// Powers of `e` beyond this leave too little room for the rest of a product.
 const MODERATE: f64 = 200.0;

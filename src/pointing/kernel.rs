@@ -12,8 +12,8 @@ use super::evidence::DirectionNow;
 use super::from_start::FromStart;
 use super::targets::{Class, Targets};
 use super::{Space, Vector};
-use crate::math::kernel::mixture::{Density, Places, SharedDensity, weighted_sums_in};
-use crate::math::kernel::vectors::{Block, Lanes, raise};
+use whither_kernel::mixture::{Density, Places, SharedDensity, Sums};
+use whither_kernel::vectors::{Block, Lanes, raise};
 
 /// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
 const CERTAIN: f64 = -500.0;
@@ -69,11 +69,11 @@ impl Work {
             match &class.covariance {
                 Some(covariance) => {
                     now.nodes.shared_densities(covariance, shared);
-                    weighted_sums_in(d, shared, &places, 0.0, over_start, weights);
+                    SharedDensity::weighted_sums(d, shared, &places, 0.0, over_start, weights);
                 }
                 None => {
                     now.nodes.densities(densities);
-                    weighted_sums_in(d, densities, &places, 0.0, over_start, weights);
+                    Density::weighted_sums(d, densities, &places, 0.0, over_start, weights);
                 }
             }
             let (best, worst) = exponents(class, &places, now, weights);

@@ -35,7 +35,6 @@ mod state;
 pub(crate) mod targets;
 
 use crate::math::log_sum_exp::share;
-pub(crate) use crate::math::small_gaussian::Symmetric;
 use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
@@ -45,6 +44,7 @@ use parameters::PointingConstants;
 use space::Space;
 use std::sync::Arc;
 use targets::Targets;
+pub(crate) use whither_kernel::small_gaussian::Symmetric;
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
 pub type Vector = [f64; 3];

@@ -3,9 +3,9 @@
 use super::Vector;
 use super::entry_time::EntryTime;
 use crate::error::{Code, Error, Result};
-use crate::math::kernel::mixture::HALF_LOG2_E;
-use crate::math::kernel::vectors::{Block, Lanes, raise};
 use nalgebra::DMatrix;
+use whither_kernel::mixture::HALF_LOG2_E;
+use whither_kernel::vectors::{Block, Lanes, raise};
 
 /// The constants of the pointing model. Lengths are in the unit of the positions, times in seconds, angles in radians; the default is
 /// for a mouse on a screen, in px, fitted on recorded movements of 149 people.

@@ -8,10 +8,10 @@ use super::endpoint::Pair;
 use super::targets::Extent;
 use super::{Pointing, Space, Vector, dot, minus};
 use crate::math::gaussian::Gaussian;
-use crate::math::kernel::mixture::AXES;
-use crate::math::small_gaussian::triangularise;
 use crate::posterior::Shares;
 use nalgebra::{DMatrix, DVector};
+use whither_kernel::mixture::AXES;
+use whither_kernel::small_gaussian::triangularise;
 
 /// The most components of a state: positions and velocities.
 const STATES: usize = 2 * AXES;

@@ -1,9 +1,9 @@
 //! The targets of a movement as flat arrays for the hot loop, by the covariance of their endpoints.
 
 use super::{Symmetric, Vector, dot};
-use crate::math::kernel::layout::{FEW, Layout};
-use crate::math::kernel::mixture::{AXES, Places};
 use std::ops::Range;
+use whither_kernel::layout::{FEW, Layout};
+use whither_kernel::mixture::{AXES, Places};
 
 /// What targets of one size have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Probabilities of destinations by their priors, and given that it is not "none".
 
-use crate::math::kernel::vectors::WIDTH;
 use crate::math::log_sum_exp::share;
+use whither_kernel::vectors::WIDTH;
 
 /// Below this, probabilities have lost digits to that of none: their ratios are computed from the logarithms.
 const SMALLEST_SUM: f64 = 1e-280;

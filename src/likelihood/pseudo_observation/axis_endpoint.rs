@@ -5,9 +5,9 @@
 //! nodes are worked on at a time.
 
 use super::separable::{AxisFilter, MOST};
-use crate::math::kernel::mixture::HALF_LOG2_E;
-use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
 use crate::model::motion::MotionModel;
+use whither_kernel::mixture::HALF_LOG2_E;
+use whither_kernel::vectors::{Block, Lanes, WIDTH};
 
 /// What the endpoint of one axis is, apart from the position's mean and variance, which each destination has of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

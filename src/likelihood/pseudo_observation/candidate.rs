@@ -6,10 +6,10 @@ use super::coefficients::{Prediction, Work};
 use super::conversion::coupled_of;
 use super::coupled::{self, Coupled};
 use super::separable::{Axes, MOST};
-use crate::math::kernel::mixture::AXES;
-use crate::math::kernel::vectors::Block;
 use crate::model::motion::{MotionModel, Transition};
 use std::sync::Arc;
+use whither_kernel::mixture::AXES;
+use whither_kernel::vectors::Block;
 
 /// The filters under one noise candidate.
 #[derive(Clone, Debug)]

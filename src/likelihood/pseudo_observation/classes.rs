@@ -4,13 +4,13 @@ use super::axis_endpoint::AxisEndpoint;
 use super::pruning::{BoundingBox, MANY, arrange, bounding_boxes};
 use super::separable::MOST;
 use crate::likelihood::plan::Plan;
-use crate::math::kernel::layout::{FEW, Layout};
-use crate::math::kernel::mixture::AXES;
-use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use fnv::FnvHashMap;
 use nalgebra::DMatrix;
 use std::ops::Range;
+use whither_kernel::layout::{FEW, Layout};
+use whither_kernel::mixture::AXES;
+use whither_kernel::vectors::{Block, WIDTH};
 
 /// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
 pub const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;

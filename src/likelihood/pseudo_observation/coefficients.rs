@@ -1,4 +1,4 @@
-//! The coefficients: from the endpoint predicted from now and from the start to the terms of [`crate::math::kernel::mixture`].
+//! The coefficients: from the endpoint predicted from now and from the start to the terms of [`whither_kernel::mixture`].
 //!
 //! With `d = a - m`, `v = V + S`, `u = U + S` for one axis,
 //!
@@ -12,9 +12,9 @@ use super::axis_endpoint::{AxisEndpoint, EndpointCovariance, NodeTable};
 use super::classes::{Class, Classes};
 use super::pruning::Bounds;
 use super::separable::{Axes, MOST};
-use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, log2_sums_in, weighted_sums_in};
-use crate::math::kernel::vectors::{Block, Lanes, WIDTH};
 use std::ops::Range;
+use whither_kernel::mixture::{AXES, Ball, Ellipsoid, HALF_LOG2_E, Own, Sums};
+use whither_kernel::vectors::{Block, Lanes, WIDTH};
 
 /// Where the mean of a node is further from the origin than this many bits of its density, the terms of a [`Ball`] cancel
 /// too much, and the [`Ellipsoid`] is taken.
@@ -163,9 +163,9 @@ impl Work {
             let places = classes.layout.places(blocks, origin);
             let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
             match class.size {
-                None => weighted_sums_in(d, owns, &places, shift, priors, weights),
-                Some(_) if round => weighted_sums_in(d, balls, &places, shift, priors, weights),
-                Some(_) => weighted_sums_in(d, ellipsoids, &places, shift, priors, weights),
+                None => Own::weighted_sums(d, owns, &places, shift, priors, weights),
+                Some(_) if round => Ball::weighted_sums(d, balls, &places, shift, priors, weights),
+                Some(_) => Ellipsoid::weighted_sums(d, ellipsoids, &places, shift, priors, weights),
             }
         };
         if boxes.is_empty() { part(&class.blocks) } else { bounds.sum(boxes, d, shift, part) }
@@ -179,11 +179,11 @@ impl Work {
         match class.size {
             None => {
                 self.owns();
-                log2_sums_in(d, &self.owns, &places, logs);
+                Own::log2_sums(d, &self.owns, &places, logs);
             }
             Some(size) => {
                 self.ellipsoids(d, &size);
-                log2_sums_in(d, &self.ellipsoids, &places, logs);
+                Ellipsoid::log2_sums(d, &self.ellipsoids, &places, logs);
             }
         }
     }

@@ -4,11 +4,11 @@ use super::coupled::Coupled;
 use super::separable::{Axes, AxisFilter, axes_of_model};
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
-use crate::math::kernel::mixture::AXES;
-use crate::math::small_gaussian::axis_filter::AxisFilters;
 use crate::model::motion::MotionModel;
 use nalgebra::{DMatrix, DVector};
 use std::array::from_fn;
+use whither_kernel::mixture::AXES;
+use whither_kernel::small_gaussian::axis_filter::AxisFilters;
 
 /// The filter of the joint state from those of separate axes.
 pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {

@@ -4,9 +4,9 @@
 use super::classes::ClassEndpoint;
 use crate::math::gaussian::{Gaussian, propagate};
 use crate::math::kalman::Filter;
-use crate::math::kernel::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
-use crate::math::small_gaussian::{Matrix, eliminate};
 use crate::model::motion::{MotionModel, Transition};
+use whither_kernel::mixture::{AXES, Ellipsoid, HALF_LOG2_E};
+use whither_kernel::small_gaussian::{Matrix, eliminate};
 
 /// The Kalman posterior now, and that of the first observation.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,10 @@
 //! weights. A part whose bound is negligible against the sum is not evaluated, and its probabilities are zero: all that is left
 //! out is less than 1e-14 of the sum.
 
-use crate::math::kernel::mixture::{AXES, Ball, Ellipsoid, Places};
-use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use std::ops::Range;
+use whither_kernel::mixture::{AXES, Ball, Ellipsoid, Places};
+use whither_kernel::vectors::{Block, WIDTH};
 
 /// Fewer destinations than this are sooner evaluated than sorted.
 pub const MANY: usize = 4096;

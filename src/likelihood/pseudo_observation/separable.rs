@@ -1,10 +1,10 @@
 //! Models whose axes do not mix: each axis is a small filter of its own. Axes that are alike (one noise, one history of
 //! observation noise) share all that does not depend on a mean.
 
-use crate::math::kernel::mixture::AXES;
-use crate::math::small_gaussian::axis_filter::{self, AxisFilters, Step};
-use crate::math::small_gaussian::{Matrix, root};
 use crate::model::motion::{AxisTransition, MotionModel};
+use whither_kernel::mixture::AXES;
+use whither_kernel::small_gaussian::axis_filter::{self, AxisFilters, Step};
+use whither_kernel::small_gaussian::{Matrix, root};
 
 /// The most components of one axis: position, velocity, acceleration.
 pub const MOST: usize = 3;

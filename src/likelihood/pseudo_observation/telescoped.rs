@@ -14,10 +14,10 @@ use crate::likelihood::filter_bank::{FilterBank, advance_filter};
 use crate::likelihood::plan::Plan;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
-use crate::math::kernel::vectors::{Block, WIDTH};
 use crate::model::destination::Destinations;
 use crate::value::{Node, Value};
 use std::sync::Arc;
+use whither_kernel::vectors::{Block, WIDTH};
 
 /// The filters of one movement so far, with everything that turns them into probabilities.
 #[derive(Clone, Debug)]

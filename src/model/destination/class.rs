@@ -1,8 +1,8 @@
 //! What destinations of the same size share.
 
 use super::Arrival;
-use crate::math::kernel::mixture::AXES;
 use nalgebra::{DMatrix, DVector};
+use whither_kernel::mixture::AXES;
 
 /// What destinations share whose endpoints differ in their means alone: the endpoint's covariance `S_i` and the arrival prior,
 /// so that every matrix serves all of them.

@@ -1,7 +1,7 @@
 //! The ratios of two densities: for places that share an endpoint's covariance, and for places that have each its own.
 
 use super::{AXES, HALF_LOG2_E, Places, Term, at};
-use crate::math::kernel::vectors::Lanes;
+use crate::vectors::Lanes;
 
 /// A quadratic with one curvature for all axes, expanded about the origin of the [`Places`]: the cheapest form, for where
 /// its terms do not cancel.

@@ -5,20 +5,22 @@
 //! [`super::gaussian`] and [`super::kalman`]: with room for the largest state they would copy the square of its size in every
 //! step. Of an array that has room for more, only the part that the arguments name is read.
 
-pub(crate) mod axis_filter;
+pub mod axis_filter;
 
-use super::gaussian::VANISHING;
-use super::kernel::vectors::Number;
+use crate::vectors::Number;
+
+/// A deviation whose square is no number with all its digits.
+pub const VANISHING: f64 = 1e-150;
 
 /// A square matrix, by rows.
-pub(crate) type Matrix<const S: usize> = [[f64; S]; S];
+pub type Matrix<const S: usize> = [[f64; S]; S];
 
 /// A symmetric matrix over at most three axes: xx, xy, yy, xz, yz, zz.
-pub(crate) type Symmetric<N = f64> = [N; 6];
+pub type Symmetric<N = f64> = [N; 6];
 
 /// Turns the first `rows` rows of `columns` numbers into the lower triangle with the same square, its diagonal not
 /// negative; see [`super::gaussian::triangularise`].
-pub(crate) fn triangularise<const ROWS: usize, const COLUMNS: usize>(
+pub fn triangularise<const ROWS: usize, const COLUMNS: usize>(
     a: &mut [[f64; COLUMNS]; ROWS],
     rows: usize,
     columns: usize,
@@ -59,7 +61,7 @@ pub(crate) fn triangularise<const ROWS: usize, const COLUMNS: usize>(
 ///
 /// A rotation for each column, from the component's own to the first, turns `[R^1/2, H L]` into `[S^1/2, 0]`; it turns the
 /// rows of `[0, L]` into those of `[K S^1/2, L+]` and leaves `L` triangular.
-pub(crate) fn condition<const SIZE: usize>(
+pub fn condition<const SIZE: usize>(
     root: &mut [[f64; SIZE]; SIZE],
     size: usize,
     at: usize,
@@ -86,7 +88,7 @@ pub(crate) fn condition<const SIZE: usize>(
 }
 
 /// A root of a positive semi-definite matrix over `s` components, lower triangular.
-pub(crate) fn root<const S: usize>(p: &Matrix<S>, s: usize) -> Matrix<S> {
+pub fn root<const S: usize>(p: &Matrix<S>, s: usize) -> Matrix<S> {
     let mut root = [[0.0; S]; S];
     for j in 0..s {
         let mut diagonal = 0.0;
@@ -110,7 +112,7 @@ pub(crate) fn root<const S: usize>(p: &Matrix<S>, s: usize) -> Matrix<S> {
 
 /// The inverse and the determinant of a positive definite matrix over the first `d` components, none where it is not, by
 /// elimination: it loses fewer digits than [`inverse`] where components depend on each other, but branches on the numbers.
-pub(crate) fn eliminate<const S: usize>(mut matrix: Matrix<S>, d: usize) -> Option<(Matrix<S>, f64)> {
+pub fn eliminate<const S: usize>(mut matrix: Matrix<S>, d: usize) -> Option<(Matrix<S>, f64)> {
     let mut determinant = 1.0;
     // Gauss and Jordan in place; a positive definite matrix needs no pivoting
     for k in 0..d {
@@ -137,10 +139,10 @@ pub(crate) fn eliminate<const S: usize>(mut matrix: Matrix<S>, d: usize) -> Opti
     Some((matrix, determinant))
 }
 
-/// The inverse and the determinant of a positive definite matrix by its adjugate, for numbers and for [`super::kernel::vectors::Lanes`]
+/// The inverse and the determinant of a positive definite matrix by its adjugate, for numbers and for [`crate::vectors::Lanes`]
 /// alike; the entries of axes that there are not are without meaning.
 #[inline(always)]
-pub(crate) fn inverse<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (Symmetric<N>, N) {
+pub fn inverse<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (Symmetric<N>, N) {
     let [xx, xy, yy, xz, yz, zz] = *matrix;
     let (zero, one) = (N::of(0.0), N::of(1.0));
     if dimensions == 1 {
@@ -160,7 +162,7 @@ pub(crate) fn inverse<N: Number>(matrix: &Symmetric<N>, dimensions: usize) -> (S
 
 /// A symmetric matrix times a vector.
 #[must_use]
-pub(crate) fn times(matrix: &Symmetric, v: &[f64; 3]) -> [f64; 3] {
+pub fn times(matrix: &Symmetric, v: &[f64; 3]) -> [f64; 3] {
     let [xx, xy, yy, xz, yz, zz] = *matrix;
     let [x, y, z] = *v;
     [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
@@ -169,7 +171,6 @@ pub(crate) fn times(matrix: &Symmetric, v: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::gaussian;
     use nalgebra::{DMatrix, dmatrix};
 
     fn dense<const S: usize>(a: &Matrix<S>) -> DMatrix<f64> {
@@ -184,23 +185,13 @@ mod tests {
     }
 
     #[test]
-    fn conditioning_is_that_of_dynamic_matrices() {
-        let mut root = [[2.0, 0.0, 0.0], [0.5, 1.0, 0.0], [-0.3, 0.7, 0.4]];
-        let expected = gaussian::condition_root(&dense(&root), &dmatrix![0.0, 1.0, 0.0], &dmatrix![0.3]).unwrap();
-        let (gain, variance) = condition(&mut root, 3, 1, 0.3);
-        assert!((dense(&root) - &expected.root).amax() < 1e-15);
-        assert!((0..3).all(|i| (gain[i] - expected.gain[(i, 0)]).abs() < 1e-15));
-        assert!((variance - expected.prediction_error.root()[(0, 0)].powi(2)).abs() < 1e-15);
-    }
-
-    #[test]
     fn roots_of_semi_definite_matrices_have_their_square() {
         // the second component is twice the first
         let matrix = [[4.0, 8.0, 1.0], [8.0, 16.0, 2.0], [1.0, 2.0, 3.0]];
         let found = dense(&root(&[[4.0, 2.0], [2.0, 2.0]], 2));
         assert!((found - dmatrix![2.0, 0.0; 1.0, 1.0]).amax() < 1e-15);
         let first = dense(&root(&matrix, 2));
-        assert!((gaussian::square(&first) - dmatrix![4.0, 8.0, 0.0; 8.0, 16.0, 0.0; 0.0, 0.0, 0.0]).amax() < 1e-14);
+        assert!(((&first * first.transpose()) - dmatrix![4.0, 8.0, 0.0; 8.0, 16.0, 0.0; 0.0, 0.0, 0.0]).amax() < 1e-14);
     }
 
     #[test]

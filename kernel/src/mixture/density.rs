@@ -2,7 +2,7 @@
 //! which has its own variances.
 
 use super::{AXES, HALF_LOG2_E, Places, Term, at};
-use crate::math::kernel::vectors::Lanes;
+use crate::vectors::Lanes;
 
 /// A Gaussian density, the covariance that all places share included.
 #[derive(Clone, Copy, Debug, Default)]

@@ -136,31 +136,52 @@ fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
     }
 }
 
-/// [`weighted_sums`] in so many dimensions.
-pub fn weighted_sums_in<T: Term<1> + Term<2> + Term<3>>(
-    dimensions: usize,
-    terms: &[T],
-    places: &Places<'_>,
-    shift: f64,
-    priors: &[Block],
-    weights: &mut [Block],
-) -> f64 {
-    match dimensions {
-        1 => weighted_sums::<1, T>(terms, places, shift, priors, weights),
-        2 => weighted_sums::<2, T>(terms, places, shift, priors, weights),
-        _ => weighted_sums::<3, T>(terms, places, shift, priors, weights),
-    }
+/// Terms of one form, and their sums. Each form has functions of its own: what is generic would be compiled where it is called, at
+/// the level for size.
+pub trait Sums: Sized {
+    /// Writes `prior_i sum_n f_n 2^(e_n(i) - shift)` for every place, in so many dimensions, and returns their sum over all of
+    /// them. Exponents are cut at 960 on either side of the shift, an integer.
+    fn weighted_sums(
+        dimensions: usize,
+        terms: &[Self],
+        places: &Places<'_>,
+        shift: f64,
+        priors: &[Block],
+        weights: &mut [Block],
+    ) -> f64;
+
+    /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, in so many dimensions, whatever the size of the exponents.
+    fn log2_sums(dimensions: usize, terms: &[Self], places: &Places<'_>, logs: &mut [Block]);
 }
 
-/// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents, in so many dimensions.
-pub fn log2_sums_in<T: Term<1> + Term<2> + Term<3>>(
-    dimensions: usize,
-    terms: &[T],
-    places: &Places<'_>,
-    logs: &mut [Block],
-) {
-    log2_sums(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), logs);
+macro_rules! sums {
+    ($($term:ident),*) => {$(
+        impl Sums for $term {
+            #[inline(never)]
+            fn weighted_sums(
+                dimensions: usize,
+                terms: &[Self],
+                places: &Places<'_>,
+                shift: f64,
+                priors: &[Block],
+                weights: &mut [Block],
+            ) -> f64 {
+                match dimensions {
+                    1 => weighted_sums::<1, Self>(terms, places, shift, priors, weights),
+                    2 => weighted_sums::<2, Self>(terms, places, shift, priors, weights),
+                    _ => weighted_sums::<3, Self>(terms, places, shift, priors, weights),
+                }
+            }
+
+            #[inline(never)]
+            fn log2_sums(dimensions: usize, terms: &[Self], places: &Places<'_>, logs: &mut [Block]) {
+                log2_sums(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), logs);
+            }
+        }
+    )*};
 }
+
+sums!(Ball, Ellipsoid, Own, Density, SharedDensity);
 
 #[cfg(test)]
 mod tests {
@@ -262,7 +283,7 @@ mod tests {
         let total = weighted_sums::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
-        log2_sums_in(2, &RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
+        Ellipsoid::log2_sums(2, &RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
         for (log, weight) in logs.as_flattened().iter().zip(weights.as_flattened()) {
             assert!((log - (weight / 0.25).log2()).abs() < 1e-12);
         }
@@ -281,7 +302,7 @@ mod tests {
         let places = Places { coordinates: [&ones[..]; AXES], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut weights = [[0.0; WIDTH]];
         // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
-        let total = weighted_sums_in(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let total = Ellipsoid::weighted_sums(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
         let expected = 0.5 * (-5.25f64).exp2();
         assert!(
             (weights[0][WIDTH - 1] / expected - 1.0).abs() < 1e-14
@@ -312,7 +333,7 @@ mod tests {
         let x = [[0.0, 1.0, 1e3, 1e6]];
         let places = Places { coordinates: [&x[..], &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut logs = [[0.0; WIDTH]];
-        log2_sums_in(1, &[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
+        Ball::log2_sums(1, &[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
         assert_eq!(logs[0], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
     }
 
@@ -321,9 +342,9 @@ mod tests {
         let x = line(1.5);
         let places = Places { coordinates: [x.as_slice(), &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let (mut logs, mut weights) = (vec![[7.0; WIDTH]; 3], vec![[7.0; WIDTH]; 3]);
-        log2_sums_in::<Ball>(1, &[], &places, &mut logs);
+        Ball::log2_sums(1, &[], &places, &mut logs);
         assert_eq!(logs, [[f64::NEG_INFINITY; WIDTH]; 3]);
-        let total = weighted_sums_in::<Ball>(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
+        let total = Ball::weighted_sums(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
         assert_eq!((total, weights), (0.0, vec![[0.0; WIDTH]; 3]));
     }
 }

@@ -1,11 +1,11 @@
 //! The Kalman filter of one axis, and the filters of all axes, of which those that are alike share all but their means.
 
 use super::{Matrix, condition, triangularise};
-use crate::math::kernel::mixture::AXES;
+use crate::mixture::AXES;
 use std::ops::{Index, IndexMut};
 
 /// One step of an axis: `x_k = F x_{k-1} + M + e`, `e ~ N(0, L L')`.
-pub(crate) trait Step<const S: usize, const PAIR: usize> {
+pub trait Step<const S: usize, const PAIR: usize> {
     /// How many components the axis has; a constant here makes all loops over them short.
     fn states(&self) -> usize;
 
@@ -22,7 +22,7 @@ pub(crate) trait Step<const S: usize, const PAIR: usize> {
 /// The Kalman posterior of one axis of at most `S` components, over the pair (first state, state now), as
 /// [`crate::math::kalman::Filter`]: Liang (8) and the usual correction. `PAIR` is twice `S`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct AxisFilter<const S: usize, const PAIR: usize> {
+pub struct AxisFilter<const S: usize, const PAIR: usize> {
     states: usize,
     /// The mean of the first state given all observations.
     pub first: [f64; S],
@@ -130,7 +130,7 @@ impl<const S: usize, const PAIR: usize> AxisFilter<S, PAIR> {
 /// The filters of the axes of one movement. An axis that moves as the first one does, began with its covariance and has been
 /// observed alike since is its twin: all but the means is computed once for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct AxisFilters<const S: usize, const PAIR: usize> {
+pub struct AxisFilters<const S: usize, const PAIR: usize> {
     dimensions: usize,
     filters: [AxisFilter<S, PAIR>; AXES],
     twins: [bool; AXES],
@@ -213,81 +213,5 @@ impl<const S: usize, const PAIR: usize> IndexMut<usize> for AxisFilters<S, PAIR>
     #[inline(always)]
     fn index_mut(&mut self, axis: usize) -> &mut Self::Output {
         &mut self.filters[axis]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::gaussian::Gaussian;
-    use crate::math::kalman::{Filter, Measurement, TimeUpdate};
-    use nalgebra::{DMatrix, dmatrix, dvector};
-
-    /// Constant velocity over one second, with the noise `L L'`.
-    struct Second;
-
-    const NOISE_ROOT: Matrix<2> = [[0.5, 0.0], [0.75, 0.25]];
-
-    impl Step<2, 4> for Second {
-        fn states(&self) -> usize {
-            2
-        }
-
-        fn mean(&self, x: &mut [f64; 2]) {
-            x[0] += x[1];
-        }
-
-        fn root(&self, [position, velocity]: &mut [[f64; 4]; 2]) {
-            position.iter_mut().zip(velocity).for_each(|(position, velocity)| *position += *velocity);
-        }
-
-        fn noise_root(&self) -> Matrix<2> {
-            NOISE_ROOT
-        }
-    }
-
-    /// The same with dynamic matrices, for one axis.
-    fn advance(filter: &mut Filter, observed: Option<f64>, variance: f64) {
-        let noise = DMatrix::from_fn(2, 2, |i, j| NOISE_ROOT[i][j]);
-        let (noise, zero) = (&noise * noise.transpose(), DMatrix::zeros(2, 1));
-        filter.predict(&TimeUpdate { transition: &dmatrix![1.0, 1.0; 0.0, 1.0], offsets: &zero, noise: &noise });
-        if let Some(y) = observed {
-            let (value, matrix) = (dvector![y], dmatrix![1.0, 0.0]);
-            assert!(filter.correct(&Measurement { value, matrix, noise: dmatrix![variance] }));
-        }
-    }
-
-    #[test]
-    fn every_axis_is_a_filter_of_its_own_twin_or_not() {
-        let root = [[2.0, 0.0, 0.0, 0.0], [0.0, 3.0, 0.0, 0.0], [2.0, 0.0, 0.0, 0.0], [0.0, 3.0, 0.0, 0.0]];
-        let begin = |y: f64| AxisFilter::new(2, [y, 0.0], [y, 0.0], root);
-        let mut axes = AxisFilters::new(3, [begin(0.0), begin(10.0), begin(-5.0)], &[true; AXES]);
-        let covariance = dmatrix![4.0, 0.0; 0.0, 9.0];
-        let mut dense = [0.0, 10.0, -5.0]
-            .map(|y| Filter::new(&Gaussian { mean: dvector![y, 0.0], covariance: covariance.clone() }, 1));
-        // the third axis is missing once, then the second has another variance
-        let observed = [
-            ([Some(1.0), Some(12.0), Some(-4.0)], [0.5; 3], [true; 3]),
-            ([Some(2.0), Some(13.0), None], [0.5; 3], [true, true, false]),
-            ([Some(2.5), Some(13.0), Some(-2.0)], [0.5, 0.7, 0.5], [true, false, false]),
-            ([None, None, Some(0.0)], [0.5; 3], [true, false, false]),
-        ];
-        for (position, variance, twins) in observed {
-            let mut squares = 0.0;
-            axes.advance(|_| Some(Second), &position, &variance, |error, variance| squares += error * error / variance);
-            assert!(squares > 0.0);
-            for (axis, filter) in dense.iter_mut().enumerate() {
-                advance(filter, position[axis], variance[axis]);
-                assert_eq!(axes.is_twin(axis), twins[axis]);
-                let (found, expected, start) = (&axes[axis], filter.mean(0), filter.smoothed_start(0));
-                for i in 0..2 {
-                    assert!((found.now[i] - expected[i]).abs() < 1e-13);
-                    assert!((found.first[i] - start.mean[i]).abs() < 1e-13);
-                    for j in 0..2 {
-                        assert!((found.covariance[i][j] - filter.current_covariance()[(i, j)]).abs() < 1e-13);
-                    }
-                }
-            }
-        }
     }
 }

@@ -1,0 +1,10 @@
+//! The hot loops of whither, alone: vectors of four numbers, sums of exponentials of quadratics, the flat arrays that they are
+//! over, and Gaussians of a few components.
+//!
+//! It changes with any release of whither and is not for use by itself. It is a package of its own because its WebAssembly
+//! is compiled for speed, and everything else for size.
+
+pub mod layout;
+pub mod mixture;
+pub mod small_gaussian;
+pub mod vectors;
