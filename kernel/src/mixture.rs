@@ -77,13 +77,13 @@ fn weighted_sums<const D: usize, T: Term<D>>(
         // the test comes last: engines compile such a loop to code that is a third faster
         loop {
             let (exponent, factor) = term.exponent_and_factor(&place);
-            sum = sum + factor * exponent.exp2(&shift);
+            sum = sum + factor * exponent.unscaled_exp2(&shift);
             match rest.next() {
                 Some(next) => term = next,
                 None => break,
             }
         }
-        let weighted = sum * Lanes::load(prior);
+        let weighted = sum * Lanes::load(prior).scaled();
         weighted.store(weight);
         total = total + weighted;
     }
@@ -127,11 +127,11 @@ fn log2_sums(terms: usize, at: &At<'_>, logs: &mut [Block]) {
         let mut sum = Lanes::splat(0.0);
         for n in 0..terms {
             let Some((exponent, factor)) = at(n, i) else { return };
-            sum = sum + factor * (exponent - top).exp2(&none);
+            sum = sum + factor * (exponent - top).unscaled_exp2(&none);
         }
         let mut tops = [0.0; WIDTH];
         top.store(&mut tops);
-        sum.store(log);
+        sum.scaled().store(log);
         log.iter_mut().zip(tops).for_each(|(log, top)| *log = top + log.log2());
     }
 }
