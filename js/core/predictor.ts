@@ -10,6 +10,8 @@ import { bounds, copyIn, isScarce, reserve, type Bounds } from "./memory.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
 import { isList, MOST_ITEMS } from "./plain.js";
 
+const NOTHING = new Float64Array(0);
+
 /** What one destination with arrival times of its own may take, in bytes. */
 const ONE = 2 ** 23;
 
@@ -90,7 +92,7 @@ export interface Snapshot {
  */
 export class Predictor {
   #engine: Engine | null;
-  #view = new Float64Array(0);
+  #view = NOTHING;
   /** Whether the memory for a movement is reserved, and a bound of it. */
   #reserved = false;
   #movement = 0;
@@ -129,7 +131,8 @@ export class Predictor {
       const y = count > 1 ? position[1] : 0;
       const z = count > 2 ? position[2] : 0;
       if (typeof x === "number" && typeof y === "number" && typeof z === "number") {
-        this.#observing().observe(time, count, x, y, z);
+        const error = this.#observing().observe(time, count, x, y, z);
+        if (error !== undefined) throw error;
         return;
       }
     }
@@ -384,18 +387,18 @@ export class Predictor {
     const engine = this.#live();
     const bound = bounds(engine);
     reserve(times * bound[what] + more);
-    // with other destinations a movement needs another amount
+    // with other destinations a movement needs another amount, and their numbers have another length
     this.#movement = times * bound.movement;
+    this.#view = NOTHING;
     return engine;
   }
 
   /** One number for each destination, at `address` in the module's memory: valid until the next call into it. */
   #viewAt(engine: Engine, address: number): Float64Array {
-    const buffer = memory();
-    const length = engine.len();
     const view = this.#view;
-    if (view.buffer === buffer && view.byteOffset === address && view.length === length) return view;
-    return (this.#view = new Float64Array(buffer, address, length));
+    // as long as the memory has not grown, which leaves the view without a length
+    if (view.byteOffset === address && view.length > 0) return view;
+    return (this.#view = new Float64Array(memory(), address, engine.len()));
   }
 }
 

@@ -1,5 +1,6 @@
 //! Bindings behind `js/core/predictor.ts`.
 
+use super::error::WhitherError;
 use super::{Result, data, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
@@ -50,10 +51,12 @@ impl Engine {
     }
 
     /// An observation of the first `count` of three numbers.
-    pub fn observe(&mut self, time: f64, count: usize, x: f64, y: f64, z: f64) -> Result<()> {
+    ///
+    /// Returns its error: thrown errors come back as a pair, for which JavaScript makes an array at every call.
+    pub fn observe(&mut self, time: f64, count: usize, x: f64, y: f64, z: f64) -> Option<WhitherError> {
         let position = [x, y, z];
         let count = count.min(position.len());
-        Ok(self.predictor.observe(time, &position[..count])?)
+        self.predictor.observe(time, &position[..count]).err().map(WhitherError::from)
     }
 
     /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
