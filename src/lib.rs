@@ -99,7 +99,7 @@
 //! | Liang (8) | Kalman prediction | `src/math/kalman.rs` |
 //! | Liang (9) | the endpoint given a state before it | `src/model/endpoint.rs` |
 //! | Liang (10) | state, forecast, paths given the endpoint | `src/likelihood/states.rs`, mixed in `src/likelihood/node_posterior.rs` |
-//! | Liang (11) telescoped, the default | product of prediction errors | `src/likelihood/pseudo_observation/dense.rs` as the oracle; fast in `src/likelihood/pseudo_observation/telescoped.rs`, with the hot loop in `src/math/kernel/mixture.rs` |
+//! | Liang (11) telescoped, the default | product of prediction errors | `src/likelihood/pseudo_observation/dense.rs` as the oracle; fast in `src/likelihood/pseudo_observation/telescoped.rs`, with the hot loop in `kernel/src/mixture.rs` |
 //! | Liang (12)-(13) | Algorithm 2 | `src/likelihood/algorithm2.rs` |
 //! | Liang's references 12 to 14 | original bridging distributions | `src/likelihood/bridging.rs` |
 //! | Ardeshiri (6), Rezaie and Li (7)-(9) | the transition towards `x_T` | `src/model/bridge.rs` |

@@ -4,7 +4,10 @@
 //! It changes with any release of whither and is not for use by itself. It is a package of its own because its WebAssembly
 //! is compiled for speed, and everything else for size.
 
+pub mod axes;
+pub mod endpoints;
 pub mod layout;
 pub mod mixture;
+pub mod ratios;
 pub mod small_gaussian;
 pub mod vectors;

@@ -2,7 +2,7 @@
 //! the inverse of small matrices, and in [`axis_filter`] the Kalman filter of one axis.
 //!
 //! Sizes that only a scenario gives (all axes together, several components observed at once) stay with the dynamic matrices of
-//! [`super::gaussian`] and [`super::kalman`]: with room for the largest state they would copy the square of its size in every
+//! `math::gaussian` and `math::kalman` of whither: with room for the largest state they would copy the square of its size in every
 //! step. Of an array that has room for more, only the part that the arguments name is read.
 
 pub mod axis_filter;
@@ -19,7 +19,8 @@ pub type Matrix<const S: usize> = [[f64; S]; S];
 pub type Symmetric<N = f64> = [N; 6];
 
 /// Turns the first `rows` rows of `columns` numbers into the lower triangle with the same square, its diagonal not
-/// negative; see [`super::gaussian::triangularise`].
+/// negative; as `math::gaussian::triangularise` of whither.
+#[inline(always)]
 pub fn triangularise<const ROWS: usize, const COLUMNS: usize>(
     a: &mut [[f64; COLUMNS]; ROWS],
     rows: usize,
@@ -61,6 +62,7 @@ pub fn triangularise<const ROWS: usize, const COLUMNS: usize>(
 ///
 /// A rotation for each column, from the component's own to the first, turns `[R^1/2, H L]` into `[S^1/2, 0]`; it turns the
 /// rows of `[0, L]` into those of `[K S^1/2, L+]` and leaves `L` triangular.
+#[inline(always)]
 pub fn condition<const SIZE: usize>(
     root: &mut [[f64; SIZE]; SIZE],
     size: usize,
@@ -72,7 +74,8 @@ pub fn condition<const SIZE: usize>(
     for q in (0..=at).rev() {
         let known = root[at][q];
         let total = (deviation * deviation + known * known).sqrt();
-        let (cosine, sine) = (deviation / total, known / total);
+        let over = 1.0 / total;
+        let (cosine, sine) = (deviation * over, known * over);
         for p in q..size {
             let (entry, scaled) = (root[p][q], gain[p]);
             root[p][q] = cosine * entry - sine * scaled;
@@ -81,8 +84,9 @@ pub fn condition<const SIZE: usize>(
         deviation = total;
     }
     // so far it was K S^1/2
+    let over = 1.0 / deviation;
     for entry in &mut gain {
-        *entry /= deviation;
+        *entry *= over;
     }
     (gain, deviation * deviation)
 }

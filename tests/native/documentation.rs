@@ -59,7 +59,8 @@ fn equations(source: &Path) -> Vec<(String, Vec<String>)> {
     let rows = text.lines().skip_while(|line| *line != "//! | equation | what | file |").skip(2);
     let row = |line: &str| {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let files = cells[3].split('`').filter(|word| word.starts_with("src/")).map(str::to_owned).collect();
+        let is_file = |word: &&str| word.starts_with("src/") || word.starts_with("kernel/src/");
+        let files = cells[3].split('`').filter(is_file).map(str::to_owned).collect();
         (cells[1].to_owned(), files)
     };
     rows.take_while(|line| line.starts_with("//! |")).map(row).collect()

@@ -20,7 +20,7 @@ pub trait Step<const S: usize, const PAIR: usize> {
 }
 
 /// The Kalman posterior of one axis of at most `S` components, over the pair (first state, state now), as
-/// [`crate::math::kalman::Filter`]: Liang (8) and the usual correction. `PAIR` is twice `S`.
+/// `math::kalman::Filter` of whither: Liang (8) and the usual correction. `PAIR` is twice `S`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisFilter<const S: usize, const PAIR: usize> {
     states: usize,
@@ -116,9 +116,10 @@ impl<const S: usize, const PAIR: usize> AxisFilter<S, PAIR> {
         correction
     }
 
-    /// Corrects the means, and returns the prediction error.
-    fn correct_mean(&mut self, correction: &Correction<PAIR>, observed: f64) -> f64 {
-        let (s, error) = (self.states, observed - self.now[0]);
+    /// Corrects the means of `s` components, and returns the prediction error.
+    #[inline(always)]
+    fn correct_mean(&mut self, s: usize, correction: &Correction<PAIR>, observed: f64) -> f64 {
+        let error = observed - self.now[0];
         for i in 0..s {
             self.first[i] += correction.gain[i] * error;
             self.now[i] += correction.gain[s + i] * error;
@@ -192,7 +193,7 @@ impl<const S: usize, const PAIR: usize> AxisFilters<S, PAIR> {
                 others[0].advance_root(&own, observed.map(|_| variance[axis]))
             };
             if let (Some(observed), Some(correction)) = (observed, &correction) {
-                let error = self.filters[axis].correct_mean(correction, observed);
+                let error = self.filters[axis].correct_mean(shared.states(), correction, observed);
                 innovation(error, correction.variance);
             }
         }

@@ -1,14 +1,15 @@
 //! The filters under one noise candidate, and its terms for a class of endpoints.
 
-use super::axis_endpoint::{AxisEndpoint, NodeTable};
 use super::classes::{ClassEndpoint, Nodes};
-use super::coefficients::{Prediction, Work};
+use super::coefficients::Work;
 use super::conversion::coupled_of;
 use super::coupled::{self, Coupled};
-use super::separable::{Axes, MOST};
 use crate::model::motion::{MotionModel, Transition};
 use std::sync::Arc;
+use whither_kernel::axes::{Axes, Start};
+use whither_kernel::endpoints::{AxisEndpoint, NodeTable};
 use whither_kernel::mixture::AXES;
+use whither_kernel::ratios::Prediction;
 use whither_kernel::vectors::Block;
 
 /// The filters under one noise candidate.
@@ -23,7 +24,7 @@ pub(super) struct Candidate {
 
 #[derive(Clone, Debug)]
 pub(super) enum Source {
-    Separable { first: Axes, now: Axes },
+    Separable { first: Start, now: Axes },
     Coupled(Box<Coupled>),
 }
 
@@ -37,8 +38,10 @@ pub(super) struct Tables {
 #[derive(Clone, Debug, Default)]
 pub(super) struct StepsTo {
     /// Which nodes, and how much of their time had passed.
-    pub of: Option<(usize, u64)>,
-    pub axes: [NodeTable; MOST],
+    of: Option<(usize, u64)>,
+    /// The nodes' prior probabilities, zero for those that had passed.
+    pub weights: Vec<Block>,
+    pub axes: [NodeTable; AXES],
     pub complete: Vec<Transition>,
 }
 
@@ -69,15 +72,13 @@ impl Candidate {
         }
     }
 
-    /// Adds the terms of a class: its nodes with their `weights`, and its endpoint.
-    #[expect(clippy::too_many_arguments, reason = "one caller, which owns what is borrowed here")]
+    /// Adds the terms of a class: its nodes and its endpoint.
     pub fn prepare(
         &mut self,
         number: usize,
         nodes: &Nodes,
         endpoint: &ClassEndpoint,
         elapsed: f64,
-        weights: &[Block],
         lead: f64,
         work: &mut Work,
     ) {
@@ -87,20 +88,27 @@ impl Candidate {
         let passed = if nodes.from_now { 0.0 } else { elapsed };
         match &self.source {
             Source::Separable { first, now } => {
-                let Some(axes) = &endpoint.axes else { return };
-                to_now.fill_axes(model, now, number, axes, nodes, passed);
-                let mut predicted;
+                let Some(endpoints) = &endpoint.axes else { return };
+                to_now.fill_axes(model, now, number, endpoints, nodes, passed);
+                let predicted;
                 let (start, start_tables) = if nodes.from_now {
-                    predicted = *first;
-                    predicted.propagate(model, elapsed);
+                    predicted = first.predict(&|axis| model.axis(axis, elapsed));
                     (&predicted, &to_now.axes)
                 } else {
-                    to_start.fill_axes(model, first, number, axes, nodes, 0.0);
+                    to_start.fill_axes(model, now, number, endpoints, nodes, 0.0);
                     (first, &to_start.axes)
                 };
-                let prediction =
-                    Prediction { now, start, tables: &to_now.axes, start_tables, weights, weight: self.weight, lead };
-                work.add_endpoints(&prediction, axes);
+                work.ratios.add(&Prediction {
+                    now: now.states(),
+                    start: start.states(),
+                    tables: &to_now.axes,
+                    start_tables,
+                    same: &now.alike,
+                    endpoints,
+                    weights: &to_now.weights,
+                    weight: self.weight,
+                    lead,
+                });
             }
             Source::Coupled(coupled) => {
                 to_now.fill_complete(model, number, nodes, passed);
@@ -112,7 +120,7 @@ impl Candidate {
                 };
                 let start_steps = if nodes.from_now { &to_now.complete } else { &to_start.complete };
                 let (now, mut room) = (coupled.now(), coupled::Room::default());
-                let steps = to_now.complete.iter().zip(start_steps).zip(weights.as_flattened());
+                let steps = to_now.complete.iter().zip(start_steps).zip(to_now.weights.as_flattened());
                 for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
                     let factor = self.weight * weight;
                     let d = model.dimensions();
@@ -126,9 +134,15 @@ impl Candidate {
 }
 
 impl StepsTo {
-    fn is(&mut self, number: usize, passed: f64) -> bool {
+    /// Whether these are the steps to these nodes already; if not, they are to be filled.
+    fn is(&mut self, number: usize, nodes: &Nodes, passed: f64) -> bool {
         let of = Some((number, passed.to_bits()));
-        std::mem::replace(&mut self.of, of) == of
+        if self.of == of {
+            return true;
+        }
+        self.of = of;
+        nodes.weights_ahead(passed, &mut self.weights);
+        false
     }
 
     fn fill_axes(
@@ -136,22 +150,23 @@ impl StepsTo {
         model: &dyn MotionModel,
         axes: &Axes,
         number: usize,
-        endpoints: &[AxisEndpoint; MOST],
+        endpoints: &[AxisEndpoint; AXES],
         nodes: &Nodes,
         passed: f64,
     ) {
-        let length = endpoints.iter().map(|endpoint| endpoint.length).max().unwrap_or(1);
-        if self.is(number, passed) && self.axes[0].length() >= length {
+        let (d, components) = (axes.filters.dimensions(), axes.filters[0].states());
+        let length = endpoints.iter().map(|endpoint| endpoint.length).max().unwrap_or(1).min(components);
+        if self.is(number, nodes, passed) && self.axes[0].length() >= length {
             return;
         }
-        for axis in (0..axes.filters.dimensions()).filter(|&axis| axis == 0 || !axes.alike[axis]) {
-            let length = length.min(axes.filters[axis].states());
-            self.axes[axis].fill(model, axis, length, nodes.times.iter().map(|time| time - passed));
+        for axis in (0..d).filter(|&axis| axis == 0 || !axes.alike[axis]) {
+            let step = |node: usize| model.axis(axis, (nodes.times.get(node)? - passed).max(0.0));
+            self.axes[axis].fill(length, nodes.times.len(), &step);
         }
     }
 
     fn fill_complete(&mut self, model: &dyn MotionModel, number: usize, nodes: &Nodes, passed: f64) {
-        if self.is(number, passed) {
+        if self.is(number, nodes, passed) {
             return;
         }
         self.complete.clear();

@@ -1,13 +1,13 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
-use super::axis_endpoint::AxisEndpoint;
 use super::pruning::{BoundingBox, MANY, arrange, bounding_boxes};
-use super::separable::MOST;
 use crate::likelihood::plan::Plan;
 use crate::model::destination::Destinations;
 use fnv::FnvHashMap;
 use nalgebra::DMatrix;
 use std::ops::Range;
+use whither_kernel::axes::MOST;
+use whither_kernel::endpoints::AxisEndpoint;
 use whither_kernel::layout::{FEW, Layout};
 use whither_kernel::mixture::AXES;
 use whither_kernel::vectors::{Block, WIDTH};

@@ -1,30 +1,30 @@
 //! Between the filters of separate axes and that of the joint state; every number is the same on both sides.
 
 use super::coupled::Coupled;
-use super::separable::{Axes, AxisFilter, axes_of_model};
+use super::separable::axes_of_model;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
 use crate::model::motion::MotionModel;
 use nalgebra::{DMatrix, DVector};
 use std::array::from_fn;
+use whither_kernel::axes::{Axes, AxisFilter, Start};
 use whither_kernel::mixture::AXES;
 use whither_kernel::small_gaussian::axis_filter::AxisFilters;
 
 /// The filter of the joint state from those of separate axes.
-pub fn coupled_of(first: &Axes, now: &Axes) -> Coupled {
-    let (start, filter) = (joint(first), joint(now));
-    let s = filter.states;
-    let mut covariance = DMatrix::zeros(s, s);
-    let d = first.filters.dimensions();
-    for (axis, of) in first.filters.iter().enumerate() {
-        for i in 0..of.states() {
-            for j in 0..of.states() {
-                covariance[(i * d + axis, j * d + axis)] = of.covariance[i][j];
+pub fn coupled_of(first: &Start, now: &Axes) -> Coupled {
+    let filter = joint(now);
+    let (s, d) = (filter.states, first.dimensions);
+    let mut joined = Gaussian { mean: DVector::zeros(s), covariance: DMatrix::zeros(s, s) };
+    for axis in 0..d {
+        for i in 0..first.components {
+            joined.mean[i * d + axis] = first.means[axis][i];
+            for j in 0..first.components {
+                joined.covariance[(i * d + axis, j * d + axis)] = first.covariances[axis][i][j];
             }
         }
     }
-    let first = Gaussian { mean: start.means.column(0).rows(s, s).into_owned(), covariance };
-    Coupled { first, filter }
+    Coupled { first: joined, filter }
 }
 
 fn joint(axes: &Axes) -> Filter {
@@ -52,8 +52,9 @@ fn row_of(i: usize, states: usize, axis: usize, d: usize, s: usize) -> usize {
     if i < states { i * d + axis } else { s + (i - states) * d + axis }
 }
 
-/// The filter of one axis of so many states from that of the joint state.
-fn axis_of(filter: &Filter, axis: usize, states: usize, d: usize) -> AxisFilter {
+/// The filter of one axis of so many components from that of the joint state; empty where there is no such axis.
+fn axis_of(filter: &Filter, axis: usize, components: usize, d: usize) -> AxisFilter {
+    let states = if axis < d { components } else { 0 };
     let row = |i: usize| row_of(i, states, axis, d, filter.states);
     let mean = |i: usize, of: usize| if i < states { filter.means[(row(of + i), 0)] } else { 0.0 };
     let entry = |i: usize, j: usize| if i.max(j) < 2 * states { filter.root[(row(i), row(j))] } else { 0.0 };
@@ -61,9 +62,10 @@ fn axis_of(filter: &Filter, axis: usize, states: usize, d: usize) -> AxisFilter 
     AxisFilter::new(states, from_fn(|i| mean(i, 0)), from_fn(|i| mean(i, states)), root)
 }
 
-/// The filters of separate axes from those of the joint state; none where the model or the state mixes axes.
-pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Axes, Axes)> {
-    let (states, alike) = axes_of_model(model)?;
+/// The filters of separate axes from those of the joint state, and the posterior of the first observation; none where the model or
+/// the state mixes axes.
+pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Option<(Start, Axes)> {
+    let (components, alike) = axes_of_model(model)?;
     let (d, s) = (model.dimensions(), filter.states);
     if !filter.root.iter().all(|x| x.is_finite()) {
         return None;
@@ -72,16 +74,19 @@ pub fn axes_of(model: &dyn MotionModel, first: &Gaussian, filter: &Filter) -> Op
     if (0..2 * s).any(|i| (0..2 * s).any(|j| mixes(i, j))) {
         return None;
     }
-    let beginning = Filter::new(first, 1);
-    let mut start: [AxisFilter; AXES] = from_fn(|axis| axis_of(&beginning, axis, states[axis], d));
-    for (axis, one) in start.iter_mut().enumerate() {
-        for i in 0..one.states() {
-            for j in 0..one.states() {
-                one.covariance[i][j] = first.covariance[(i * d + axis, j * d + axis)];
-            }
-        }
-    }
-    let now = from_fn(|axis| axis_of(filter, axis, states[axis], d));
-    let axes = |filters, log_evidence| Axes { filters: AxisFilters::new(d, filters, &alike), alike, log_evidence };
-    Some((axes(start, 0.0), axes(now, *filter.log_evidence.first()?)))
+    let (is_there, row) = (|axis: usize, i: usize| axis < d && i < components, |axis: usize, i: usize| i * d + axis);
+    let mean = |axis, i| if is_there(axis, i) { first.mean[row(axis, i)] } else { 0.0 };
+    let covariance = |axis, i: usize, j| {
+        if is_there(axis, i.max(j)) { first.covariance[(row(axis, i), row(axis, j))] } else { 0.0 }
+    };
+    let covariances: [_; AXES] = from_fn(|axis| from_fn(|i| from_fn(|j| covariance(axis, i, j))));
+    let start = Start {
+        dimensions: d,
+        components,
+        means: from_fn(|axis| from_fn(|i| mean(axis, i))),
+        covariances,
+        twins: from_fn(|axis| alike[axis] && covariances[axis] == covariances[0]),
+    };
+    let filters = AxisFilters::new(d, from_fn(|axis| axis_of(filter, axis, components, d)), &alike);
+    Some((start, Axes { filters, alike, log_evidence: *filter.log_evidence.first()? }))
 }

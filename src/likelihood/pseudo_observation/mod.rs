@@ -12,18 +12,17 @@
 //! |---|---|
 //! | `telescoped` | the filters, and the sums over nodes |
 //! | `candidate` | one noise candidate: a filter of each axis, or one of the complete state |
-//! | `separable` | the filters where axes do not mix |
-//! | `axis_endpoint` | `m_n, V_n, u_n, U_n` there |
+//! | `separable` | which models' axes do not mix; their filters are `whither_kernel::axes` |
+//! | `whither_kernel::endpoints` | `m_n, V_n, u_n, U_n` there |
 //! | `coupled` | both where they do |
 //! | `classes` | the destinations in flat arrays |
-//! | `coefficients` | the coefficients |
+//! | `coefficients` | the coefficients, by `whither_kernel::ratios` |
 //! | `pruning` | what can add nothing, of very many destinations |
 //! | `conversion` | from separate axes to the complete state and back |
-//! | `math::kernel::mixture` | the sum |
+//! | `whither_kernel::mixture` | the sum |
 //!
 //! `dense` computes the same one pair at a time: the oracle, which a test compares this with.
 
-pub(crate) mod axis_endpoint;
 mod candidate;
 pub(crate) mod classes;
 pub(crate) mod coefficients;

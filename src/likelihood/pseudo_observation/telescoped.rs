@@ -6,7 +6,6 @@ use super::classes::{Class, Classes, IN_RANGE};
 use super::coefficients::Work;
 use super::conversion::{axes_of, coupled_of};
 use super::coupled::Coupled;
-use super::separable::MOST;
 use crate::engine::Observed;
 use crate::error::Result;
 use crate::likelihood::configuration::Configuration;
@@ -17,7 +16,8 @@ use crate::math::kalman::Filter;
 use crate::model::destination::Destinations;
 use crate::value::{Node, Value};
 use std::sync::Arc;
-use whither_kernel::vectors::{Block, WIDTH};
+use whither_kernel::axes::MOST;
+use whither_kernel::vectors::{Block, WIDTH, exponent, scale_above};
 
 /// The filters of one movement so far, with everything that turns them into probabilities.
 #[derive(Clone, Debug)]
@@ -36,7 +36,6 @@ pub(crate) struct Telescoped {
     next_shift: f64,
     /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
-    node_weights: Vec<Block>,
     work: Work,
 }
 
@@ -81,7 +80,6 @@ impl Telescoped {
             first_counts: configuration.first_counts,
             shift: 0.0,
             next_shift: 0.0,
-            node_weights: Vec::new(),
             work: Work::default(),
         }
     }
@@ -125,7 +123,8 @@ impl Telescoped {
         if let Some(variances) = variances(observed).filter(|_| self.is_separable()) {
             for candidate in &mut self.candidates {
                 if let Source::Separable { now, .. } = &mut candidate.source {
-                    now.advance(candidate.model.as_ref(), step, observed.position, &variances);
+                    let model = candidate.model.as_ref();
+                    now.advance(&|axis| model.axis(axis, step), observed.position, &variances);
                 }
             }
         } else {
@@ -254,10 +253,9 @@ impl Telescoped {
         } else {
             (1.0, 0.0)
         };
-        let beyond = total.log2().round();
+        let beyond = exponent(total);
         self.next_shift = self.shift + if beyond.abs() > 8.0 { beyond } else { 0.0 };
-        let (scale, least) = (scale / sum, LEAST * sum);
-        into.iter_mut().for_each(|p| *p = if *p > least { *p * scale } else { 0.0 });
+        scale_above(into, LEAST * sum, scale / sum);
         Some(none)
     }
 
@@ -272,7 +270,7 @@ impl Telescoped {
             if !top.is_finite() {
                 return None;
             }
-            self.shift = top.round();
+            self.shift = top.round_ties_even();
             sum = self.weights(classes, weights);
         }
         (sum > 0.0 && sum.is_finite()).then_some(sum)
@@ -342,12 +340,11 @@ impl Telescoped {
             return;
         };
         let elapsed = self.elapsed;
-        nodes.weights_ahead(elapsed, &mut self.node_weights);
         self.work.clear();
         let evidence = self.candidates.first().map_or(0.0, Candidate::log_evidence);
         for candidate in &mut self.candidates {
             let lead = (candidate.log_evidence() - evidence) * std::f64::consts::LOG2_E;
-            candidate.prepare(class.nodes, nodes, endpoint, elapsed, &self.node_weights, lead, &mut self.work);
+            candidate.prepare(class.nodes, nodes, endpoint, elapsed, lead, &mut self.work);
         }
     }
 }
@@ -359,9 +356,19 @@ fn exp2(x: f64) -> f64 {
 
 /// The variances in each axis, where the noise of each that was observed is its own.
 fn variances(observed: &Observed<'_>) -> Option<[f64; MOST]> {
-    let (noise, n) = (observed.noise, observed.noise.nrows());
+    let (noise, n) = (observed.noise.as_slice(), observed.noise.nrows());
+    if n > MOST {
+        return None;
+    }
     let is_observed = |i: usize| observed.position.get(i).is_some_and(Option::is_some);
-    let independent = |i: usize, j: usize| noise[(i, j)] == 0.0 || !is_observed(i) || !is_observed(j);
-    let all = n <= MOST && (0..n).all(|i| (0..i).all(|j| independent(i, j)));
-    all.then(|| std::array::from_fn(|k| if k < n { noise[(k, k)] } else { 0.0 }))
+    let mut variances = [0.0; MOST];
+    for i in 0..n {
+        variances[i] = noise[i * n + i];
+        for j in 0..i {
+            if noise[i * n + j] != 0.0 && is_observed(i) && is_observed(j) {
+                return None;
+            }
+        }
+    }
+    Some(variances)
 }

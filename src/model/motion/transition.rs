@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use std::fmt;
+pub use whither_kernel::axes::AxisTransition;
 
 /// One step of a motion model, `x_k = F x_{k-1} + M + B c + e`, `e ~ N(0, Q)`, with `c` the destination's centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,22 +15,6 @@ pub struct Transition {
     pub destination_gain: Option<DMatrix<f64>>,
     /// `Q`, `s` by `s`, symmetric.
     pub noise: DMatrix<f64>,
-}
-
-/// One step of one axis of a model whose axes do not mix: the same equation with at most three components
-/// (position, velocity, acceleration). What lies beyond `states` is zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisTransition {
-    /// How many components the axis has: 1, 2 or 3.
-    pub states: usize,
-    /// `F`.
-    pub transition: [[f64; 3]; 3],
-    /// `M`.
-    pub offset: [f64; 3],
-    /// `B`, for this axis of the destination's centre; zero where the model does not know the destination.
-    pub destination_gain: [f64; 3],
-    /// `Q`, symmetric.
-    pub noise: [[f64; 3]; 3],
 }
 
 /// A motion model: what it is over any step.
