@@ -85,12 +85,10 @@ impl Predictor {
     /// `time-not-increasing`, `wrong-length`, `not-finite`; `out-of-range` for a position beyond 1e50 or a time more than
     /// 1e12 s after the first; nothing has changed then.
     pub fn observe(&mut self, time: f64, position: &[f64]) -> Result<()> {
-        if let Some(all) = position.first_chunk::<3>().filter(|_| position.len() == 3) {
-            self.observe_with(time, &all.map(Some), None)
-        } else if let Some(both) = position.first_chunk::<2>().filter(|_| position.len() == 2) {
-            self.observe_with(time, &both.map(Some), None)
-        } else {
-            self.observe_with(time, &position.iter().map(|&x| Some(x)).collect::<Vec<_>>(), None)
+        match *position {
+            [x, y] => self.observe_with(time, &[Some(x), Some(y)], None),
+            [x, y, z] => self.observe_with(time, &[Some(x), Some(y), Some(z)], None),
+            _ => self.observe_with(time, &position.iter().map(|&x| Some(x)).collect::<Vec<_>>(), None),
         }
     }
 

@@ -25,9 +25,17 @@ export function reserve(bytes: number): void {
   throw new WhitherError("too-large", "", `this may take ${much}, more than is left: free() what is not needed any more`);
 }
 
+/** A view of all memory; where that has grown since, it has no length any more. */
+let all = new Uint8Array(0);
+let scarce = false;
+
 /** Whether so much memory is in use that even a small allocation has to be reserved. */
 export function isScarce(): boolean {
-  return memory().byteLength > ALWAYS / 2;
+  if (all.length === 0) {
+    all = new Uint8Array(memory());
+    scarce = all.length > ALWAYS / 2;
+  }
+  return scarce;
 }
 
 /**

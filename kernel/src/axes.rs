@@ -110,7 +110,7 @@ pub struct States<'a> {
 }
 
 /// The posterior of the first observation, or what it predicts for later.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Start {
     /// How many axes there are.
     pub dimensions: usize,
@@ -125,18 +125,16 @@ pub struct Start {
 }
 
 impl Start {
-    /// The prediction over the step that `step` gives for an axis, `F m + M` and `F P F' + Q`. Where there is no step, the axes stay
-    /// as they are.
+    /// Predicts over the step that `step` gives for an axis, `F m + M` and `F P F' + Q`. Where there is no step, the axes stay as they
+    /// are.
     #[inline(never)]
-    #[must_use]
-    pub fn predict(&self, step: &dyn Fn(usize) -> Option<AxisTransition>) -> Self {
-        let mut predicted = *self;
+    pub fn predict(&self, step: &dyn Fn(usize) -> Option<AxisTransition>, into: &mut Self) {
+        into.clone_from(self);
         match self.components {
-            1 => predicted.move_by(|axis| step(axis).map(Of::<1>)),
-            2 => predicted.move_by(|axis| step(axis).map(Of::<2>)),
-            _ => predicted.move_by(|axis| step(axis).map(Of::<3>)),
+            1 => into.move_by(|axis| step(axis).map(Of::<1>)),
+            2 => into.move_by(|axis| step(axis).map(Of::<2>)),
+            _ => into.move_by(|axis| step(axis).map(Of::<3>)),
         }
-        predicted
     }
 
     #[inline(always)]

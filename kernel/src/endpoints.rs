@@ -89,6 +89,14 @@ impl NodeTable {
         }
     }
 
+    /// The numbers of each block of nodes, for so many components of the endpoint.
+    #[inline(always)]
+    fn rows(&self, states: usize, length: usize) -> impl Iterator<Item = &[Block]> {
+        // of known length, so that no index is checked
+        let (used, each) = (stride(states, length), stride(states, self.length).max(1));
+        self.blocks.chunks_exact(each).filter_map(move |rows| rows.get(..used))
+    }
+
     /// For endpoints of how many components it was filled.
     #[must_use]
     pub const fn length(&self) -> usize {
@@ -154,105 +162,130 @@ pub fn predict(
     room: &mut [Elimination],
     into: &mut [Position],
 ) {
-    for axis in 0..states.dimensions {
-        let (table, endpoint) = (&tables[if same[axis] { 0 } else { axis }], &endpoints[axis]);
-        let (covariance, mean) = (states.covariances[axis], states.means[axis]);
+    let mut axis = 0;
+    while axis < states.dimensions {
+        let table = &tables[if same[axis] { 0 } else { axis }];
+        let (components, length) = (table.states, endpoints[axis].length);
         // the one before may have left another covariance
-        let known = axis > 0 && alike[axis] && alike[axis - 1];
-        // with constants here no loop over components is left
-        match (table.states, endpoint.length) {
-            (2, 1) => predict_axis(2, 1, axis, known, (table, endpoint, covariance, mean), room, into),
-            (2, 2) => predict_axis(2, 2, axis, known, (table, endpoint, covariance, mean), room, into),
-            (s, n) => predict_axis(s, n, axis, known, (table, endpoint, covariance, mean), room, into),
+        if axis == 0 || !(alike[axis] && alike[axis - 1]) {
+            let (covariance, own) = (states.covariances[axis], &endpoints[axis].covariance);
+            // with constants here no loop over components is left
+            match (components, length) {
+                (2, 1) => eliminate(2, 1, table, covariance, own, room),
+                (2, 2) => eliminate(2, 2, table, covariance, own, room),
+                (components, length) => eliminate(components, length, table, covariance, own, room),
+            }
         }
+        // two axes that are alike share what is loaded
+        let both = axis + 1 < states.dimensions && alike[axis] && alike[axis + 1];
+        let from = Means { axis, states, endpoints };
+        axis += match (components, length) {
+            (2, 1) if both => from.positions::<2>(2, 1, table, room, into),
+            (2, 2) if both => from.positions::<2>(2, 2, table, room, into),
+            (components, length) => from.positions::<1>(components, length, table, room, into),
+        };
     }
 }
 
-/// The positions in one axis, whose endpoint names `length` components; `known` is whether its covariance is in `room` already.
-#[inline(always)]
-fn predict_axis(
-    states: usize,
-    length: usize,
+/// What the positions in some axes, from `axis` on, depend on besides their covariance.
+struct Means<'a> {
     axis: usize,
-    known: bool,
-    (table, endpoint, covariance, mean): (&NodeTable, &AxisEndpoint, &Matrix<MOST>, &[f64; MOST]),
-    room: &mut [Elimination],
-    into: &mut [Position],
-) {
-    // of known length, so that no index is checked
-    let (used, each) = (stride(states, length), stride(states, table.length).max(1));
-    let rows = || table.blocks.chunks_exact(each).filter_map(move |rows| rows.get(..used));
-    if !known {
-        for (rows, room) in rows().zip(room.iter_mut()) {
-            eliminate(states, length, rows, covariance, &endpoint.covariance, room);
-        }
-    }
-    // the covariance and the means in two loops: engines spill more than they save in one
-    for ((rows, room), position) in rows().zip(room).zip(into) {
-        let mut predicted = [Lanes::splat(0.0); MOST];
-        for i in 0..length {
-            let row = offset(states, i);
-            predicted[i] = Lanes::load(&rows[row + states]);
-            for j in 0..states {
-                predicted[i] = predicted[i] + Lanes::load(&rows[row + j]) * Lanes::splat(mean[j]);
+    states: &'a States<'a>,
+    endpoints: &'a [AxisEndpoint; AXES],
+}
+
+impl Means<'_> {
+    /// Writes the positions in `A` axes with this elimination, and returns `A`.
+    #[inline(always)]
+    fn positions<const A: usize>(
+        &self,
+        states: usize,
+        length: usize,
+        table: &NodeTable,
+        room: &[Elimination],
+        into: &mut [Position],
+    ) -> usize {
+        for ((rows, room), position) in table.rows(states, length).zip(room).zip(into) {
+            let mut predicted = [[Lanes::splat(0.0); MOST]; A];
+            for i in 0..length {
+                let row = offset(states, i);
+                for a in 0..A {
+                    let mean = self.states.means[self.axis + a];
+                    predicted[a][i] = Lanes::load(&rows[row + states]);
+                    for j in 0..states {
+                        predicted[a][i] = predicted[a][i] + Lanes::load(&rows[row + j]) * Lanes::splat(mean[j]);
+                    }
+                }
+            }
+            let (mut density, mut square) = (Lanes::load(&room.density), Lanes::splat(0.0));
+            if A == 2 {
+                density = density * density;
+            }
+            if self.axis > 0 {
+                density = density * Lanes::load(&position.density);
+                square = Lanes::load(&position.square);
+            }
+            for r in (1..length).rev() {
+                let mut sum = Lanes::splat(0.0);
+                for a in 0..A {
+                    let error = Lanes::splat(self.endpoints[self.axis + a].mean[r]) - predicted[a][r];
+                    sum = if a == 0 { error * error } else { sum + error * error };
+                    for i in 0..r {
+                        predicted[a][i] = predicted[a][i] + Lanes::load(&room.gain[triangle(r) + i]) * error;
+                    }
+                }
+                square = square + sum * Lanes::load(&room.inverse[r]);
+            }
+            density.store(&mut position.density);
+            square.store(&mut position.square);
+            for a in 0..A {
+                predicted[a][0].store(&mut position.mean[self.axis + a]);
+                position.variance[self.axis + a] = room.variance;
             }
         }
-        let (mut density, mut square) = (Lanes::load(&room.density), Lanes::splat(0.0));
-        if axis > 0 {
-            density = density * Lanes::load(&position.density);
-            square = Lanes::load(&position.square);
-        }
-        for r in (1..length).rev() {
-            let error = Lanes::splat(endpoint.mean[r]) - predicted[r];
-            square = square + error * error * Lanes::load(&room.inverse[r]);
-            for i in 0..r {
-                predicted[i] = predicted[i] + Lanes::load(&room.gain[triangle(r) + i]) * error;
-            }
-        }
-        density.store(&mut position.density);
-        square.store(&mut position.square);
-        predicted[0].store(&mut position.mean[axis]);
-        position.variance[axis] = room.variance;
+        A
     }
 }
 
-/// The covariance of one block of nodes, eliminated.
+/// The covariances at all nodes, eliminated.
 #[inline(always)]
 fn eliminate(
     states: usize,
     length: usize,
-    rows: &[Block],
+    table: &NodeTable,
     before: &Matrix<MOST>,
     own: &Matrix<MOST>,
-    into: &mut Elimination,
+    into: &mut [Elimination],
 ) {
     let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
-    let mut covariance = [zero; triangle(MOST)];
-    for entry in 0..triangle(length) {
-        let (i, j) = (ROW[entry], COLUMN[entry]);
-        let place = offset(states, i) + states + 1 + j * (1 + triangle(states));
-        let mut sum = Lanes::load(&rows[place]) + Lanes::splat(own[i][j]);
-        for of in 0..triangle(states) {
-            sum = sum + Lanes::load(&rows[place + 1 + of]) * Lanes::splat(before[ROW[of]][COLUMN[of]]);
-        }
-        covariance[entry] = sum;
-    }
-    let mut density = one;
-    for r in (1..length).rev() {
-        let row = triangle(r);
-        let inverse = one / covariance[row + r];
-        density = density * inverse;
-        inverse.store(&mut into.inverse[r]);
-        let mut gain = [zero; MOST];
-        for i in 0..r {
-            gain[i] = covariance[row + i] * inverse;
-            gain[i].store(&mut into.gain[row + i]);
-        }
-        for entry in 0..row {
+    for (rows, into) in table.rows(states, length).zip(into) {
+        let mut covariance = [zero; triangle(MOST)];
+        for entry in 0..triangle(length) {
             let (i, j) = (ROW[entry], COLUMN[entry]);
-            covariance[entry] = covariance[entry] - gain[i] * covariance[row + j];
+            let place = offset(states, i) + states + 1 + j * (1 + triangle(states));
+            let mut sum = Lanes::load(&rows[place]) + Lanes::splat(own[i][j]);
+            for of in 0..triangle(states) {
+                sum = sum + Lanes::load(&rows[place + 1 + of]) * Lanes::splat(before[ROW[of]][COLUMN[of]]);
+            }
+            covariance[entry] = sum;
         }
+        let mut density = one;
+        for r in (1..length).rev() {
+            let row = triangle(r);
+            let inverse = one / covariance[row + r];
+            density = density * inverse;
+            inverse.store(&mut into.inverse[r]);
+            let mut gain = [zero; MOST];
+            for i in 0..r {
+                gain[i] = covariance[row + i] * inverse;
+                gain[i].store(&mut into.gain[row + i]);
+            }
+            for entry in 0..row {
+                let (i, j) = (ROW[entry], COLUMN[entry]);
+                covariance[entry] = covariance[entry] - gain[i] * covariance[row + j];
+            }
+        }
+        covariance[0].store(&mut into.variance);
+        density.store(&mut into.density);
     }
-    covariance[0].store(&mut into.variance);
-    density.store(&mut into.density);
 }

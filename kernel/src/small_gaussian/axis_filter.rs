@@ -184,7 +184,12 @@ impl<const S: usize, const PAIR: usize> AxisFilters<S, PAIR> {
                 leading
             } else if alike {
                 others[0].predict_mean(&shared);
-                (others[0].root, others[0].covariance) = (first[0].root, first[0].covariance);
+                others[0].covariance = first[0].covariance;
+                // row by row: copied at once it would be a call out of the WebAssembly
+                let both = 2 * shared.states();
+                for (row, of) in others[0].root.iter_mut().zip(&first[0].root).take(both) {
+                    row[..both].copy_from_slice(&of[..both]);
+                }
                 leading
             } else {
                 self.twins[axis] = false;

@@ -28,11 +28,13 @@ pub(super) enum Source {
     Coupled(Box<Coupled>),
 }
 
-/// Steps to the nodes, kept as long as they stay the same.
+/// Steps to the nodes, kept as long as they stay the same, and room.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tables {
     pub now: StepsTo,
     pub start: StepsTo,
+    /// Room for the state that the start predicts for now.
+    predicted: Start,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -83,17 +85,16 @@ impl Candidate {
         work: &mut Work,
     ) {
         let model = self.model.as_ref();
-        let Tables { now: to_now, start: to_start } = &mut self.tables;
+        let Tables { now: to_now, start: to_start, predicted } = &mut self.tables;
         // nodes that count from now are as far from now as from where the start's prediction has come to by then
         let passed = if nodes.from_now { 0.0 } else { elapsed };
         match &self.source {
             Source::Separable { first, now } => {
                 let Some(endpoints) = &endpoint.axes else { return };
                 to_now.fill_axes(model, now, number, endpoints, nodes, passed);
-                let predicted;
                 let (start, start_tables) = if nodes.from_now {
-                    predicted = first.predict(&|axis| model.axis(axis, elapsed));
-                    (&predicted, &to_now.axes)
+                    first.predict(&|axis| model.axis(axis, elapsed), predicted);
+                    (&*predicted, &to_now.axes)
                 } else {
                     to_start.fill_axes(model, now, number, endpoints, nodes, 0.0);
                     (first, &to_start.axes)
