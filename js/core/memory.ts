@@ -5,8 +5,8 @@
  * @module
  */
 import { WhitherError } from "#error";
+import { MOST_VALUES, toBytes } from "./bytes.js";
 import { memory, reserve_memory, type Engine } from "./loading/instance.js";
-import { MOST_VALUES, plainCopy } from "./plain.js";
 
 /** What any call may allocate without reserving it, in bytes. */
 const SMALL = 2 ** 20;
@@ -39,14 +39,14 @@ export function isScarce(): boolean {
 }
 
 /**
- * A plain copy of a user's value, for WebAssembly, with the memory for it reserved.
+ * A user's value as bytes, for WebAssembly, with the memory for it reserved.
  *
  * @param value - A user's value.
  * @param name - The beginning of every path in an error; empty for a scenario.
  * @param times - How many copies WebAssembly holds at once.
  */
-export function copyIn(value: unknown, name = "", times = 1): unknown {
-  return plainCopy(value, name, (bytes) => reserve(times * bytes));
+export function copyIn(value: unknown, name = "", times = 1): Uint8Array {
+  return toBytes(value, name, (bytes) => reserve(times * bytes));
 }
 
 /** Upper bounds of what a predictor allocates, in bytes. */

@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { WhitherError } from "#error";
 import type { Best } from "./best.js";
+import { fromBytes } from "./bytes.js";
 import { copyInto } from "./copy.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./loading/instance.js";
@@ -8,7 +9,7 @@ import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
 import { bounds, copyIn, isScarce, reserve, type Bounds } from "./memory.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
-import { isList, MOST_ITEMS } from "./plain.js";
+import { isList, MOST_ITEMS } from "./list.js";
 
 const NOTHING = new Float64Array(0);
 
@@ -340,7 +341,7 @@ export class Predictor {
    * ```
    */
   snapshot(): Snapshot {
-    return this.#withMemory("snapshot").snapshot() as Snapshot;
+    return fromBytes(this.#withMemory("snapshot").snapshot()) as Snapshot;
   }
 
   /**

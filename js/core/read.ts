@@ -4,7 +4,7 @@
  * @module
  */
 import { type ErrorCode, WhitherError } from "#error";
-import { isList } from "./plain.js";
+import { isList } from "./list.js";
 
 /** The largest number in absolute value, and the inverse of the smallest length or time. */
 const LARGEST = 1e50;

@@ -1,3 +1,4 @@
+import { fromBytes } from "../core/bytes.js";
 import { loaded, pointer_scenario } from "../core/loading/instance.js";
 import { copyIn } from "../core/memory.js";
 import type { Scenario } from "../core/scenario.js";
@@ -42,5 +43,5 @@ export interface PointerOptions {
  */
 export function pointerScenario(targets: readonly PointerTarget[], options?: PointerOptions): Scenario {
   loaded();
-  return pointer_scenario(copyIn({ targets, options }, "", 2)) as Scenario;
+  return fromBytes(pointer_scenario(copyIn({ targets, options }, "", 2))) as Scenario;
 }

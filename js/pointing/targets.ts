@@ -1,5 +1,5 @@
 import { WhitherError } from "#error";
-import { MOST_ITEMS } from "../core/plain.js";
+import { MOST_ITEMS } from "../core/list.js";
 import { fields, isAbsent, list, notNegative, number, positive, text } from "../core/read.js";
 import type { PointerTarget as ScenarioTarget } from "./scenario.js";
 

@@ -4,10 +4,10 @@
  * @module
  */
 import { WhitherError } from "#error";
+import { fromBytes, toBytes } from "../core/bytes.js";
 import { load } from "../core/loading/instance.js";
 import type { WasmSource } from "../core/loading/source.js";
 import { checkOptions } from "../core/options.js";
-import { plainCopy } from "../core/plain.js";
 import type { Scenario } from "../core/scenario.js";
 import { fit, reserve_memory } from "../generated/study.js";
 
@@ -94,7 +94,7 @@ export async function fitWith<S extends Omit<Scenario, "destinations">>(
     throw new WhitherError("wrong-type", "progress", "must be a function");
   }
   let bytes = 0;
-  const given = plainCopy({ ...others, tracks, scenario }, "", (needed) => void (bytes = 2 * needed));
+  const given = toBytes({ ...others, tracks, scenario }, "", (needed) => void (bytes = 2 * needed));
   await load(source);
   if (!reserve_memory(bytes)) {
     throw new WhitherError("too-large", "tracks", `may take ${Math.ceil(bytes / 2 ** 20)} MB of memory, more than is left`);
@@ -111,7 +111,7 @@ export async function fitWith<S extends Omit<Scenario, "destinations">>(
       }
     },
   };
-  const fitted = fit(given, listener) as Fitted<S>;
+  const fitted = fit(given, listener);
   if (thrown) throw thrown.error;
-  return fitted;
+  return fromBytes(fitted) as Fitted<S>;
 }

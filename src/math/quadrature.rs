@@ -155,9 +155,9 @@ impl Quadrature {
     pub(crate) fn to_value(&self) -> Value {
         let (rule, _) = RULES[self.place()];
         let mut entries =
-            vec![("rule".to_owned(), Value::text(rule)), ("points".to_owned(), Value::Number(self.points() as f64))];
+            vec![("rule".into(), Value::text(rule)), ("points".into(), Value::Number(self.points() as f64))];
         if let Self::MonteCarlo { seed, .. } = self {
-            entries.push(("seed".to_owned(), Value::Number(f64::from(*seed))));
+            entries.push(("seed".into(), Value::Number(f64::from(*seed))));
         }
         Value::Map(entries)
     }

@@ -204,7 +204,7 @@ impl Destination {
             ("prior", Some(Value::Number(self.prior))),
             ("arrival", self.arrival.as_ref().map(Arrival::to_value)),
         ];
-        Value::Map(fields.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect())
+        Value::some(fields.into())
     }
 }
 

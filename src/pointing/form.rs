@@ -136,7 +136,7 @@ impl PointingConstants {
             ("power", object(self.power.numbers())),
             ("remaining", self.remaining.as_ref().map_or(Value::Null, |remaining| object(remaining.numbers()))),
         ];
-        entries.extend(others.map(|(key, value)| (key.to_owned(), value)));
+        entries.extend(others.map(|(key, value)| (key.into(), value)));
         Value::Map(entries)
     }
 }

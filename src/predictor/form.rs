@@ -39,8 +39,8 @@ impl Predictor {
         if let Value::Map(entries) = &mut named
             && destination.get("id").is_none()
         {
-            entries.retain(|(key, _)| key != "id");
-            entries.push(("id".to_owned(), Value::text(id)));
+            entries.retain(|(key, _)| **key != *"id");
+            entries.push(("id".into(), Value::text(id)));
         }
         let destination = Destination::read(&Node::root(&named, "destination"), self.dimensions())?;
         self.update_destination(id, destination)

@@ -40,12 +40,12 @@ impl Scenario {
     /// The scenario as it is written, with these destinations in place of its own.
     pub(crate) fn to_value_with(&self, destinations: &Destinations) -> Value {
         let mut entries = vec![
-            ("motion".to_owned(), self.motion.to_value()),
-            ("observation".to_owned(), self.observation.to_value()),
-            ("none".to_owned(), Value::Number(self.none)),
-            ("destinations".to_owned(), destinations.to_value()),
+            ("motion".into(), self.motion.to_value()),
+            ("observation".into(), self.observation.to_value()),
+            ("none".into(), Value::Number(self.none)),
+            ("destinations".into(), destinations.to_value()),
         ];
-        let mut put = |key: &str, value: Value| entries.push((key.to_owned(), value));
+        let mut put = |key: &str, value: Value| entries.push((key.into(), value));
         match &self.setup {
             Setup::Papers { method, arrival, quadrature, .. } => {
                 put("arrival", arrival.to_value());

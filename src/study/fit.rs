@@ -195,7 +195,7 @@ fn read(template: &Value, path: &str) -> Result<f64> {
     let mut place = template;
     for key in path.split('.') {
         let next = match place {
-            Value::Map(entries) => entries.iter().find(|(name, _)| name == key).map(|(_, value)| value),
+            Value::Map(entries) => entries.iter().find(|(name, _)| **name == *key).map(|(_, value)| value),
             Value::List(items) => key.parse().ok().and_then(|i: usize| items.get(i)),
             _ => None,
         };
@@ -213,7 +213,7 @@ fn read(template: &Value, path: &str) -> Result<f64> {
 fn write(place: &mut Value, path: &str, number: f64) {
     let (key, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
     let next = match place {
-        Value::Map(entries) => entries.iter_mut().find(|(name, _)| name == key).map(|(_, value)| value),
+        Value::Map(entries) => entries.iter_mut().find(|(name, _)| **name == *key).map(|(_, value)| value),
         Value::List(items) => key.parse().ok().and_then(|i: usize| items.get_mut(i)),
         _ => None,
     };

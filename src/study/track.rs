@@ -163,19 +163,19 @@ impl Track {
         let Value::Map(entries) = template else {
             return Err(Error::new(Code::WrongType, "", "a scenario must be an object"));
         };
-        let mut entries: Vec<_> = entries.iter().filter(|(key, _)| key != "destinations").cloned().collect();
+        let mut entries: Vec<_> = entries.iter().filter(|(key, _)| **key != *"destinations").cloned().collect();
         let destinations = self.targets.iter().enumerate().map(|(i, target)| {
             let mut entries = vec![
-                ("id".to_owned(), Value::Text(i.to_string())),
-                ("center".to_owned(), Value::numbers(&target.center)),
-                ("size".to_owned(), Value::numbers(&target.size)),
+                ("id".into(), Value::Text(i.to_string())),
+                ("center".into(), Value::numbers(&target.center)),
+                ("size".into(), Value::numbers(&target.size)),
             ];
             if let Value::Map(extra) = extra {
                 entries.extend(extra.iter().cloned());
             }
             Value::Map(entries)
         });
-        entries.push(("destinations".to_owned(), Value::List(destinations.collect())));
+        entries.push(("destinations".into(), Value::List(destinations.collect())));
         Scenario::from_value(&Value::Map(entries))
     }
 }
@@ -187,7 +187,7 @@ pub(super) fn extra(template: &Value) -> Value {
     if let Some(Value::List(list)) = destinations.as_ref().map(|list| list.value())
         && let Some(Value::Map(first)) = list.first()
     {
-        let kept = first.iter().filter(|(key, _)| ["arrival", "endVelocity"].contains(&key.as_str()));
+        let kept = first.iter().filter(|(key, _)| ["arrival", "endVelocity"].contains(&&**key));
         return Value::Map(kept.cloned().collect());
     }
     Value::Null

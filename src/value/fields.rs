@@ -1,12 +1,12 @@
 //! The keys of an object.
 
-use super::{Node, Value, quote};
+use super::{Key, Node, Value, quote};
 use crate::error::{Code, Error, Result};
 
 /// An object whose keys have been checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
-    pub(super) entries: &'a [(String, Value)],
+    pub(super) entries: &'a [(Key, Value)],
     pub(super) node: &'a Node<'a>,
 }
 
@@ -14,7 +14,7 @@ impl<'a> Fields<'a> {
     /// The value at `key`, or none where it is absent or null.
     #[must_use]
     pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
-        let (_, value) = self.entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
+        let (_, value) = self.entries.iter().find(|(k, v)| **k == *key && *v != Value::Null)?;
         Some(Node { value, path: self.node.place().key(key) })
     }
 

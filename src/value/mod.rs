@@ -5,7 +5,10 @@
 //! WebAssembly several times as large and its errors poorer.
 
 use crate::error::{Code, Error, Result};
+use std::sync::Arc;
 
+#[cfg(any(test, feature = "wasm", feature = "wasm-fit"))]
+mod bytes;
 mod fields;
 mod path;
 mod quote;
@@ -18,6 +21,9 @@ pub use quote::{number, quote};
 /// The largest number, in absolute value, that a scenario can have, as a length, a time or a variance, and the inverse of
 /// the smallest deviation: what is computed from such numbers stays finite.
 pub const LARGEST: f64 = 1e50;
+
+/// The key of an object; where many objects are alike, they share it.
+pub type Key = Arc<str>;
 
 /// What JSON can hold, with NaN and infinities left in, so that they can be refused by name.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,20 +39,20 @@ pub enum Value {
     /// An array.
     List(Vec<Value>),
     /// An object, in the order of its keys.
-    Map(Vec<(String, Value)>),
+    Map(Vec<(Key, Value)>),
 }
 
 impl Value {
     /// An object from its entries.
     #[must_use]
     pub fn map<const N: usize>(entries: [(&str, Self); N]) -> Self {
-        Self::Map(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+        Self::Map(entries.into_iter().map(|(key, value)| (key.into(), value)).collect())
     }
 
     /// An object of those entries that there are.
     #[must_use]
     pub fn some(entries: Vec<(&str, Option<Self>)>) -> Self {
-        Self::Map(entries.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect())
+        Self::Map(entries.into_iter().filter_map(|(key, value)| Some((key.into(), value?))).collect())
     }
 
     /// A list of numbers.
@@ -192,7 +198,7 @@ impl<'a> Node<'a> {
         };
         for (i, (key, _)) in entries.iter().enumerate() {
             let path = || self.path.key(key).to_string();
-            if !legal.contains(&key.as_str()) {
+            if !legal.contains(&&**key) {
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
                 let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
                 return Err(Error::new(Code::UnknownKey, path(), message));
@@ -208,7 +214,7 @@ impl<'a> Node<'a> {
     #[must_use]
     pub fn get<'b>(&'b self, key: &'b str) -> Option<Node<'b>> {
         let Value::Map(entries) = self.value else { return None };
-        let (_, value) = entries.iter().find(|(k, v)| k == key && *v != Value::Null)?;
+        let (_, value) = entries.iter().find(|(k, v)| **k == *key && *v != Value::Null)?;
         Some(Node { value, path: self.path.key(key) })
     }
 

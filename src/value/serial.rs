@@ -22,7 +22,7 @@ impl Serialize for Value {
             Self::Map(v) => {
                 let mut map = serializer.serialize_map(Some(v.len()))?;
                 for (key, value) in v {
-                    map.serialize_entry(key, value)?;
+                    map.serialize_entry(&**key, value)?;
                 }
                 map.end()
             }
@@ -80,8 +80,8 @@ impl<'de> Visitor<'de> for ValueVisitor {
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Value, A::Error> {
         let mut entries = Vec::new();
-        while let Some(entry) = map.next_entry()? {
-            entries.push(entry);
+        while let Some((key, value)) = map.next_entry::<String, _>()? {
+            entries.push((key.into(), value));
         }
         Ok(Value::Map(entries))
     }

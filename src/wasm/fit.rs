@@ -1,11 +1,10 @@
 //! Bindings behind `js/study/fit.ts`.
 
-use super::{Result, data};
+use super::Result;
 use crate::error::Code;
 use crate::study::fit::{self, Options, Progress};
 use crate::study::track::Track;
 use crate::value::{Node, Value};
-use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -21,8 +20,8 @@ extern "C" {
 /// Learns constants from `{ tracks, scenario, constants?, evaluations?, destination? }`: the scenario with them, what they
 /// were and are, the mean loss on the tracks left out before and after, and how many tracks were used.
 #[wasm_bindgen]
-pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
-    let value = data::read(&value)?;
+pub fn fit(value: &[u8], listener: &Listener) -> Result<Vec<u8>> {
+    let value = Value::from_bytes(value)?;
     let node = Node::root(&value, "");
     let fields = node.fields(&["tracks", "scenario", "constants", "evaluations", "destination"])?;
     let tracks =
@@ -47,10 +46,11 @@ pub fn fit(value: JsValue, listener: &Listener) -> Result<JsValue> {
         Value::map([("path", Value::text(path)), ("before", Value::Number(*before)), ("after", Value::Number(*after))])
     });
     let [before, after] = fitted.left_out.map(Value::Number);
-    Ok(data::write(&Value::map([
+    let fitted = Value::map([
         ("constants", Value::List(constants.collect())),
         ("leftOut", Value::map([("before", before), ("after", after)])),
         ("tracks", Value::Number(fitted.tracks as f64)),
         ("scenario", scenario),
-    ]))?)
+    ]);
+    Ok(fitted.to_bytes())
 }

@@ -1,10 +1,8 @@
 //! The boundary to JavaScript, and the only folder that names wasm-bindgen. The files here and those in `js/` mirror one another.
 //!
-//! Flat things cross: numbers, slices of numbers, strings, and objects as plain [`data`]. JavaScript has read all of a
+//! Flat things cross: numbers, slices of numbers, strings, and objects as bytes ([`crate::value`]). JavaScript has read all of a
 //! user's object before it enters here, so that no getter and no proxy runs while a method borrows its engine.
 
-#[cfg(any(feature = "wasm", feature = "wasm-fit"))]
-mod data;
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 mod error;
 #[cfg(feature = "wasm-fit")]

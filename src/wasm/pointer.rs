@@ -1,15 +1,14 @@
 //! Bindings behind `js/pointing/scenario.ts`.
 
-use super::{Result, data};
+use super::Result;
 use crate::pointer::{self, PointerOptions, PointerTarget};
-use crate::value::Node;
-use wasm_bindgen::JsValue;
+use crate::value::{Node, Value};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The scenario for `{ targets, options? }` on a screen.
 #[wasm_bindgen]
-pub fn pointer_scenario(value: JsValue) -> Result<JsValue> {
-    let value = data::read(&value)?;
+pub fn pointer_scenario(value: &[u8]) -> Result<Vec<u8>> {
+    let value = Value::from_bytes(value)?;
     let node = Node::root(&value, "");
     let fields = node.fields(&["targets", "options"])?;
     let targets =
@@ -20,7 +19,7 @@ pub fn pointer_scenario(value: JsValue) -> Result<JsValue> {
     {
         options.none = none.number()?;
     }
-    Ok(data::write(&pointer::pointer_scenario(&targets, options)?.to_value())?)
+    Ok(pointer::pointer_scenario(&targets, options)?.to_value().to_bytes())
 }
 
 fn pointer_target(node: &Node<'_>) -> crate::Result<PointerTarget> {

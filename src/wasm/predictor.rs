@@ -1,12 +1,11 @@
 //! Bindings behind `js/core/predictor.ts`.
 
 use super::error::WhitherError;
-use super::{Result, data, flat};
+use super::{Result, flat};
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::snapshot::Snapshot;
-use crate::value::Node;
-use wasm_bindgen::JsValue;
+use crate::value::{Node, Value};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -30,14 +29,14 @@ pub struct Engine {
 impl Engine {
     /// From a scenario.
     #[wasm_bindgen(constructor)]
-    pub fn new(value: JsValue) -> Result<Engine> {
-        let scenario = Scenario::from_value(&data::read(&value)?)?;
+    pub fn new(value: &[u8]) -> Result<Engine> {
+        let scenario = Scenario::from_value(&Value::from_bytes(value)?)?;
         Ok(Self { predictor: Predictor::new(&scenario) })
     }
 
     /// From a snapshot.
-    pub fn restore(value: JsValue) -> Result<Engine> {
-        Ok(Self { predictor: Predictor::restore(&Snapshot(data::read(&value)?))? })
+    pub fn restore(value: &[u8]) -> Result<Engine> {
+        Ok(Self { predictor: Predictor::restore(&Snapshot(Value::from_bytes(value)?))? })
     }
 
     /// A second engine in the same state.
@@ -46,8 +45,8 @@ impl Engine {
     }
 
     /// A snapshot.
-    pub fn snapshot(&self) -> Result<JsValue> {
-        Ok(data::write(&self.predictor.snapshot().0)?)
+    pub fn snapshot(&self) -> Vec<u8> {
+        self.predictor.snapshot().0.to_bytes()
     }
 
     /// An observation of the first `count` of three numbers.
@@ -60,8 +59,8 @@ impl Engine {
     }
 
     /// An observation `{ time, position, noise? }` with all that may be missing or wrong.
-    pub fn observe_in_full(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn observe_in_full(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         Ok(self.predictor.observe_value(&Node::root(&value, ""))?)
     }
 
@@ -107,8 +106,8 @@ impl Engine {
     }
 
     /// The arrival time for `{ id? }`: mean, deviation, the times, their probabilities.
-    pub fn arrival(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
-        let value = data::read(&value)?;
+    pub fn arrival(&mut self, value: &[u8]) -> Result<Option<Vec<f64>>> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         let id = node.get("id");
         let id = id.as_ref().map(Node::text).transpose()?;
@@ -137,16 +136,16 @@ impl Engine {
     }
 
     /// The state at `{ time }`.
-    pub fn forecast(&mut self, value: JsValue) -> Result<Option<Vec<f64>>> {
-        let value = data::read(&value)?;
+    pub fn forecast(&mut self, value: &[u8]) -> Result<Option<Vec<f64>>> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         let time = node.fields(&["time"])?.number("time")?;
         Ok(self.predictor.forecast(time)?.map(flat))
     }
 
     /// The expected positions for `{ id, times }`.
-    pub fn path(&mut self, value: JsValue) -> Result<Vec<f64>> {
-        let value = data::read(&value)?;
+    pub fn path(&mut self, value: &[u8]) -> Result<Vec<f64>> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["id", "times"])?;
         let id = fields.required("id")?.text()?;
@@ -155,27 +154,27 @@ impl Engine {
     }
 
     /// Adds `{ destination }`.
-    pub fn add_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn add_destination(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         Ok(self.predictor.add_value(&Node::root(&value, ""))?)
     }
 
     /// Replaces `{ id, destination }`.
-    pub fn update_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn update_destination(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         Ok(self.predictor.update_value(&Node::root(&value, ""))?)
     }
 
     /// Removes `{ id }`.
-    pub fn remove_destination(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn remove_destination(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         Ok(self.predictor.remove_destination(node.fields(&["id"])?.required("id")?.text()?)?)
     }
 
     /// Sets all `{ destinations }`.
-    pub fn set_destinations(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn set_destinations(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         Ok(self.predictor.set_value(&Node::root(&value, ""))?)
     }
 
@@ -185,8 +184,8 @@ impl Engine {
     }
 
     /// Counts `{ id }` as chosen.
-    pub fn chosen(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn chosen(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         Ok(self.predictor.chosen(node.fields(&["id"])?.required("id")?.text()?)?)
     }

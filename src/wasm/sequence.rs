@@ -1,12 +1,11 @@
 //! Bindings behind `js/core/sequence.ts`.
 
-use super::{Result, data, flat};
+use super::{Result, flat};
 use crate::conditionally_markov::{ConditionallyMarkovSequence, DEFAULT_TOLERANCE};
 use crate::error::Code;
 use crate::internals;
-use crate::value::Node;
+use crate::value::{Node, Value};
 use nalgebra::DMatrix;
-use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// What a JavaScript `ConditionallyMarkovSequence` holds.
@@ -20,13 +19,13 @@ pub struct SequenceEngine {
 impl SequenceEngine {
     /// A sequence induced by a Markov model.
     #[wasm_bindgen(constructor)]
-    pub fn new(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: internals::sequence(&data::read(&value)?)? })
+    pub fn new(value: &[u8]) -> Result<SequenceEngine> {
+        Ok(Self { sequence: internals::sequence(&Value::from_bytes(value)?)? })
     }
 
     /// A sequence given matrix by matrix.
-    pub fn from_parameters(value: JsValue) -> Result<SequenceEngine> {
-        Ok(Self { sequence: internals::given_sequence(&data::read(&value)?)? })
+    pub fn from_parameters(value: &[u8]) -> Result<SequenceEngine> {
+        Ok(Self { sequence: internals::given_sequence(&Value::from_bytes(value)?)? })
     }
 
     /// The number of components of one state.
@@ -45,7 +44,7 @@ impl SequenceEngine {
     }
 
     /// The model of `{ step }`: previous, destination and covariance row by row, and behind them the offset.
-    pub fn model(&self, value: JsValue) -> Result<Vec<f64>> {
+    pub fn model(&self, value: &[u8]) -> Result<Vec<f64>> {
         let model = self.sequence.model(self.step(value)?)?;
         let mut flat = Vec::new();
         for matrix in [&model.previous, &model.destination, &model.covariance] {
@@ -56,8 +55,8 @@ impl SequenceEngine {
     }
 
     /// Takes in `{ step, position }`.
-    pub fn measure(&mut self, value: JsValue) -> Result<()> {
-        let value = data::read(&value)?;
+    pub fn measure(&mut self, value: &[u8]) -> Result<()> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["step", "position"])?;
         let step = self.integer_step(&fields.required("step")?)?;
@@ -65,7 +64,7 @@ impl SequenceEngine {
     }
 
     /// The state at `{ step }`.
-    pub fn state(&self, value: JsValue) -> Result<Vec<f64>> {
+    pub fn state(&self, value: &[u8]) -> Result<Vec<f64>> {
         Ok(flat(self.sequence.state(self.step(value)?)?))
     }
 
@@ -80,8 +79,8 @@ impl SequenceEngine {
     }
 
     /// `{ seed, count }` sequences, one behind the other.
-    pub fn sample(&self, value: JsValue) -> Result<Vec<f64>> {
-        let value = data::read(&value)?;
+    pub fn sample(&self, value: &[u8]) -> Result<Vec<f64>> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         let fields = node.fields(&["seed", "count"])?;
         let seed = fields.required("seed")?.integer(0, u32::MAX as usize)?;
@@ -90,20 +89,20 @@ impl SequenceEngine {
     }
 
     /// Whether it is reciprocal to `{ tolerance? }`.
-    pub fn is_reciprocal(&self, value: JsValue) -> Result<bool> {
+    pub fn is_reciprocal(&self, value: &[u8]) -> Result<bool> {
         Ok(self.sequence.is_reciprocal(tolerance(value)?)?)
     }
 
     /// Whether it is Markov to `{ tolerance? }`.
-    pub fn is_markov(&self, value: JsValue) -> Result<bool> {
+    pub fn is_markov(&self, value: &[u8]) -> Result<bool> {
         Ok(self.sequence.is_markov(tolerance(value)?)?)
     }
 }
 
 impl SequenceEngine {
     /// `{ step }`.
-    fn step(&self, value: JsValue) -> crate::Result<usize> {
-        let value = data::read(&value)?;
+    fn step(&self, value: &[u8]) -> crate::Result<usize> {
+        let value = Value::from_bytes(value)?;
         let node = Node::root(&value, "");
         self.integer_step(&node.fields(&["step"])?.required("step")?)
     }
@@ -117,8 +116,8 @@ impl SequenceEngine {
     }
 }
 
-fn tolerance(value: JsValue) -> crate::Result<f64> {
-    let value = data::read(&value)?;
+fn tolerance(value: &[u8]) -> crate::Result<f64> {
+    let value = Value::from_bytes(value)?;
     let node = Node::root(&value, "");
     node.fields(&["tolerance"])?.optional("tolerance").map_or(Ok(DEFAULT_TOLERANCE), |tolerance| tolerance.number())
 }

@@ -196,12 +196,12 @@ fn what_would_exhaust_the_memory_is_too_large() {
         let Value::Map(mut entries) = value(&change(base, changes)) else { unreachable!() };
         let each = |i: usize| {
             let Value::Map(mut destination) = one.clone() else { unreachable!() };
-            destination.retain(|(key, _)| key != "id");
-            destination.push(("id".to_owned(), Value::text(&i.to_string())));
+            destination.retain(|(key, _)| **key != *"id");
+            destination.push(("id".into(), Value::text(&i.to_string())));
             Value::Map(destination)
         };
-        entries.retain(|(key, _)| key != "destinations");
-        entries.push(("destinations".to_owned(), Value::List((0..count).map(each).collect())));
+        entries.retain(|(key, _)| **key != *"destinations");
+        entries.push(("destinations".into(), Value::List((0..count).map(each).collect())));
         whither::internals::scenario(&Value::Map(entries)).map_err(|error| shown(&error))
     };
     let refused = |count, changes: Json| with(count, &changes).unwrap_err();

@@ -54,7 +54,7 @@ impl Draw {
                 let i = self.below(entries.len());
                 match self.below(12) {
                     0 => drop(entries.remove(i)),
-                    1 => entries[i].0.push('x'),
+                    1 => entries[i].0 = format!("{}x", entries[i].0).into(),
                     2 => entries.push(entries[i].clone()),
                     _ => self.corrupt(&mut entries[i].1),
                 }

@@ -148,7 +148,7 @@ fn a_users_habits_are_worth_more_than_a_better_model_of_the_hand() {
     let whither::internals::Value::Map(mut entries) = whither::internals::data(&plain) else {
         panic!("a scenario is an object")
     };
-    entries.push(("learning".to_owned(), value(&json!({ "strength": 10, "forgetting": 0.01, "afterLast": 3 }))));
+    entries.push(("learning".into(), value(&json!({ "strength": 10, "forgetting": 0.01, "afterLast": 3 }))));
     let learning = whither::internals::scenario(&whither::internals::Value::Map(entries)).unwrap();
     let mut random = Random::new(11);
     let mut learner = Predictor::new(&learning);

@@ -13,11 +13,11 @@ enum Subject {
 
 impl Subject {
     fn build(base: &str, from: &Json) -> Result<Self> {
-        let given = plain(from);
+        let given = &plain(from);
         Ok(match base {
             "scenario" | "pointing" => Self::Predictor(Engine::new(given)?),
             "snapshot" => Self::Predictor(Engine::restore(given)?),
-            "pointer" => Self::Predictor(Engine::new(pointer_scenario(given)?)?),
+            "pointer" => Self::Predictor(Engine::new(&pointer_scenario(given)?)?),
             "sequence" => Self::Sequence(SequenceEngine::new(given)?),
             "parameters" => Self::Sequence(SequenceEngine::from_parameters(given)?),
             other => panic!("no base {other}"),
@@ -34,7 +34,7 @@ impl Subject {
     }
 
     fn call(&mut self, name: &str, with: &Json) -> Result<()> {
-        let given = plain(with);
+        let given = &plain(with);
         match (self, name) {
             (Self::Predictor(engine), "observe") => engine.observe_in_full(given),
             (Self::Predictor(engine), "arrival") => engine.arrival(given).map(drop),
@@ -58,7 +58,7 @@ impl Subject {
     /// All that a call could have changed.
     fn everything(&self) -> Json {
         match self {
-            Self::Predictor(engine) => json(&engine.snapshot().map_err(parts).unwrap()),
+            Self::Predictor(engine) => json(&engine.snapshot()),
             Self::Sequence(engine) => json!(engine.destination()),
         }
     }

@@ -1,6 +1,6 @@
 //! What the tests take from Node, and what they give to JavaScript and get back.
 
-use js_sys::{Array, Float64Array, Function, JSON, Object, Reflect, WebAssembly};
+use js_sys::{Array, Float64Array, Function, JSON, Reflect, WebAssembly};
 use serde_json::Value as Json;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
@@ -29,30 +29,19 @@ pub fn parts(error: impl Into<JsValue>) -> String {
     String::from(parts.join(" | ")).replace("e+", "e")
 }
 
-/// A value as plain data.
-pub fn plain(json: &Json) -> JsValue {
-    fn plain(value: &Value) -> JsValue {
-        match value {
-            Value::Null => JsValue::NULL,
-            Value::Bool(truth) => JsValue::from_bool(*truth),
-            Value::Number(x) => JsValue::from_f64(*x),
-            Value::Text(text) => JsValue::from_str(text),
-            Value::List(items) => items.iter().map(plain).collect::<Array>().into(),
-            Value::Map(entries) => {
-                let object = Object::new();
-                for (key, item) in entries {
-                    Reflect::set(&object, &key.into(), &plain(item)).unwrap();
-                }
-                object.into()
-            }
-        }
-    }
-    plain(&crate::support::value(json))
+/// A value as it crosses the boundary.
+pub fn plain(json: &Json) -> Vec<u8> {
+    crate::support::value(json).to_bytes()
 }
 
-/// Plain data as JSON.
-pub fn json(value: &JsValue) -> Json {
+/// An object of JavaScript as JSON.
+pub fn object(value: &JsValue) -> Json {
     serde_json::from_str(&String::from(JSON::stringify(value).unwrap())).unwrap()
+}
+
+/// What crossed the boundary as JSON.
+pub fn json(bytes: &[u8]) -> Json {
+    serde_json::to_value(Value::from_bytes(bytes).unwrap()).unwrap()
 }
 
 /// The numbers at a place in memory, as `js/core/predictor.ts` reads them.

@@ -88,8 +88,8 @@ impl MotionNoise {
             Self::Known(noise) => return noise.to_value(),
             Self::Candidates { noises, weights } => (noises, weights),
         };
-        let mut entries = vec![("candidates".to_owned(), Value::List(noises.iter().map(PerAxis::to_value).collect()))];
-        entries.extend(weights.iter().map(|weights| ("weights".to_owned(), Value::numbers(weights))));
+        let mut entries = vec![("candidates".into(), Value::List(noises.iter().map(PerAxis::to_value).collect()))];
+        entries.extend(weights.iter().map(|weights| ("weights".into(), Value::numbers(weights))));
         Value::Map(entries)
     }
 }

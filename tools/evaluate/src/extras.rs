@@ -63,8 +63,8 @@ pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -
     for (result, prior) in results.none.iter_mut().zip(PRIORS) {
         let mut with_none = template.scenario.clone();
         if let Value::Map(entries) = &mut with_none {
-            entries.retain(|(key, _)| key != "none");
-            entries.push(("none".to_owned(), Value::Number(prior)));
+            entries.retain(|(key, _)| **key != *"none");
+            entries.push(("none".into(), Value::Number(prior)));
         }
         let scenario = track_scenario(&shown, &with_none, &template.extra).map_err(message)?;
         let mut predictor = Predictor::new(&scenario);

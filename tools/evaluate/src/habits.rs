@@ -97,8 +97,8 @@ fn other(random: &mut Random, count: usize, but: usize) -> usize {
 fn learner(template: &Template, track: &Track, learning: &[(&str, f64)]) -> Result<Scenario, String> {
     let mut scenario = template.scenario.clone();
     if let (Value::Map(entries), false) = (&mut scenario, learning.is_empty()) {
-        let keys = learning.iter().map(|(key, number)| ((*key).to_owned(), Value::Number(*number)));
-        entries.push(("learning".to_owned(), Value::Map(keys.collect())));
+        let keys = learning.iter().map(|(key, number)| ((*key).into(), Value::Number(*number)));
+        entries.push(("learning".into(), Value::Map(keys.collect())));
     }
     track_scenario(track, &scenario, &template.extra).map_err(|error| error.to_string())
 }
