@@ -77,7 +77,9 @@ async function toWasm({ name, features }, file, profile) {
     `--remap-path-prefix=${root}=`,
   ];
   const parts = ["--features", features.join()];
-  const args = ["build", "--lib", ...parts, "--target", target, "--profile", profile, "--target-dir", "target"];
+  // A `cdylib` alone: made together with an `rlib` the file keeps all that other crates could call, an eighth of it.
+  const kind = ["--lib", "--crate-type", "cdylib"];
+  const args = ["rustc", ...kind, ...parts, "--target", target, "--profile", profile, "--target-dir", "target"];
   await compile(`compiling ${name} to WebAssembly`, args, { env: { CARGO_ENCODED_RUSTFLAGS: flags.join("\x1f") } });
   mkdirSync(join(root, file, ".."), { recursive: true });
   copyFileSync(join(root, `target/${target}/${profile}/whither.wasm`), join(root, file));
