@@ -35,11 +35,15 @@ export function fromBytes(bytes: Uint8Array): unknown {
 }
 
 class Writer {
-  readonly #steps: (string | number)[] = [];
+  /** The objects around what is being read, and at least as many steps: the key or the index in each. */
   readonly #ancestors: object[] = [];
+  readonly #steps: (string | number)[] = [];
   readonly #name: string;
-  /** The number of each key. */
-  readonly #keys = new Map<string, number>();
+  /** Keys in the order of their numbers, the number of each, and which came after it the last time. */
+  readonly #keys: string[] = [];
+  readonly #numbers = new Map<string, number>();
+  readonly #following: number[] = [];
+  #lastKey = 0;
   #values = 0;
   #characters = 0;
   #view = new DataView(new ArrayBuffer(256));
@@ -64,6 +68,8 @@ class Writer {
     if (typeof value === "number") {
       const place = this.#tag(3, 8);
       this.#view.setFloat64(place, value, true);
+    } else if (typeof value === "object" && value !== null) {
+      this.#object(value);
     } else if (typeof value === "string") {
       this.#check(value);
       this.#tag(4, 0);
@@ -72,8 +78,6 @@ class Writer {
       this.#tag(value ? 2 : 1, 0);
     } else if (value === null || value === undefined) {
       this.#tag(0, 0);
-    } else if (typeof value === "object") {
-      this.#object(value);
     } else {
       const found = typeof value === "bigint" ? `${value}n, a bigint` : `a ${typeof value}`;
       throw this.#error("wrong-type", `must be plain data (numbers, strings, lists, objects), got ${found}`);
@@ -85,7 +89,6 @@ class Writer {
     if (this.#ancestors.length === DEEPEST) {
       throw this.#error("wrong-type", `must be plain data, is nested more than ${DEEPEST} deep`);
     }
-    this.#ancestors.push(value);
     if (isList(value)) this.#list(value);
     else this.#map(value as Record<string, unknown>);
     this.#ancestors.pop();
@@ -96,25 +99,25 @@ class Writer {
     if (length > MOST_ITEMS) {
       throw this.#error("too-large", `must have no more than ${MOST_ITEMS} items, has ${length}`);
     }
+    const depth = this.#ancestors.push(list) - 1;
     const place = this.#tag(5, 4);
     this.#view.setUint32(place, length, true);
     for (let i = 0; i < length; i++) {
-      this.#steps.push(i);
+      this.#steps[depth] = i;
       this.value(list[i]);
-      this.#steps.pop();
     }
   }
 
   #map(map: Record<string, unknown>): void {
+    const depth = this.#ancestors.push(map) - 1;
     const place = this.#tag(6, 4);
     let entries = 0;
     for (const key of Object.keys(map)) {
       const item = map[key];
       if (item === undefined) continue;
-      this.#steps.push(key);
+      this.#steps[depth] = key;
       this.#key(key);
       this.value(item);
-      this.#steps.pop();
       entries++;
     }
     this.#view.setUint32(place, entries, true);
@@ -122,11 +125,18 @@ class Writer {
 
   #key(key: string): void {
     this.#check(key);
-    const number = this.#keys.get(key);
+    // in a list of objects that are alike the same keys follow one another: their numbers need not be looked up
+    let number = this.#following[this.#lastKey] ?? 0;
+    if (this.#keys[number] !== key) {
+      number = this.#numbers.get(key) ?? this.#keys.length;
+      this.#following[this.#lastKey] = number;
+    }
+    this.#lastKey = number;
     const place = this.#room(4);
-    this.#view.setUint32(place, number ?? this.#keys.size, true);
-    if (number !== undefined) return;
-    this.#keys.set(key, this.#keys.size);
+    this.#view.setUint32(place, number, true);
+    if (number < this.#keys.length) return;
+    this.#keys.push(key);
+    this.#numbers.set(key, number);
     this.#text(key);
   }
 
@@ -138,10 +148,27 @@ class Writer {
   }
 
   #text(text: string): void {
+    const start = this.#length;
     const { length } = text;
-    let place = this.#room(4 + 2 * length);
-    this.#view.setUint32(place, length, true);
-    for (let i = 0; i < length; i++) this.#view.setUint16((place += i ? 2 : 4), text.charCodeAt(i), true);
+    const place = this.#room(4 + length) + 4;
+    this.#view.setUint32(start, length, true);
+    for (let i = 0; i < length; i++) {
+      const unit = text.charCodeAt(i);
+      if (unit > 127) {
+        this.#encoded(text, start);
+        return;
+      }
+      this.#view.setUint8(place + i, unit);
+    }
+  }
+
+  /** Writes a text with more than ASCII; half of a pair of units, which UTF-8 does not have, is replaced. */
+  #encoded(text: string, start: number): void {
+    const encoded = new TextEncoder().encode(text);
+    this.#length = start;
+    const place = this.#room(4 + encoded.length);
+    this.#view.setUint32(place, encoded.length, true);
+    new Uint8Array(this.#view.buffer).set(encoded, place + 4);
   }
 
   /** Writes a tag, and returns the place of so many bytes behind it. */
@@ -165,17 +192,22 @@ class Writer {
 
   #error(code: "wrong-type" | "too-large", message: string): WhitherError {
     let path = this.#name;
-    for (const step of this.#steps) path += typeof step === "number" ? `[${step}]` : path === "" ? step : `.${step}`;
+    for (const step of this.#steps.slice(0, this.#ancestors.length)) {
+      path += typeof step === "number" ? `[${step}]` : path === "" ? step : `.${step}`;
+    }
     return new WhitherError(code, path, message);
   }
 }
 
 class Reader {
+  readonly #decoder = new TextDecoder("utf-8", { ignoreBOM: true });
   readonly #keys: string[] = [];
+  readonly #bytes: Uint8Array;
   readonly #view: DataView;
   #place = 0;
 
   constructor(bytes: Uint8Array) {
+    this.#bytes = bytes;
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   }
 
@@ -196,11 +228,9 @@ class Reader {
   }
 
   #text(): string {
-    let text = "";
-    for (let length = this.#count(); length > 0; length--) {
-      text += String.fromCharCode(this.#view.getUint16(this.#skip(2), true));
-    }
-    return text;
+    const length = this.#count();
+    const place = this.#skip(length);
+    return this.#decoder.decode(this.#bytes.subarray(place, place + length));
   }
 
   #count(): number {

@@ -145,7 +145,7 @@ impl Model {
         let observation = observation.model(&root.key("observation"), dimensions, states)?;
         let centre = mean[size - states..][..dimensions].to_vec();
         let evolution = Evolution::Induced { motion, times, centre };
-        let pinned = Gaussian { mean: DVector::from_vec(mean), covariance };
+        let pinned = Gaussian { mean: DVector::from_column_slice(mean), covariance };
         let model = Self { pins, pinned, states, dimensions, observation, evolution };
         model.can_be_pinned()?;
         Ok(model)
@@ -168,7 +168,7 @@ impl Model {
         let offset = match &sequence.offset {
             None => vec![DVector::zeros(s); between],
             Some(offset) => check_each(offset, &root.key("offset"), between, |offset, at| {
-                Ok(DVector::from_vec(at.vector(offset, s, |at, x| at.number(x))?))
+                Ok(DVector::from_column_slice(at.vector(offset, s, |at, x| at.number(x))?))
             })?,
         };
         let dimensions = match sequence.dimensions {
@@ -309,7 +309,7 @@ fn check_boundary(boundary: &Boundary, at: &Path<'_>) -> Result<(Gaussian, usize
     let mut mean = DVector::zeros(2 * s);
     for (key, given, from) in [("originMean", origin_mean, 0), ("destinationMean", destination_mean, s)] {
         if let Some(given) = given {
-            mean.rows_mut(from, s).copy_from_slice(&at.key(key).vector(given, s, |at, x| at.number(x))?);
+            mean.rows_mut(from, s).copy_from_slice(at.key(key).vector(given, s, |at, x| at.number(x))?);
         }
     }
     let mut covariance = DMatrix::zeros(2 * s, 2 * s);

@@ -33,7 +33,8 @@ pub struct Destination {
     mean: Option<Vec<f64>>,
     covariance: Option<Matrix>,
     prior: f64,
-    arrival: Option<Arrival>,
+    /// Boxed, since few have one, and thousands of destinations are moved.
+    arrival: Option<Box<Arrival>>,
 }
 
 /// An endpoint `N(a_i, S_i)`, validated, with its prior weight.
@@ -100,7 +101,7 @@ impl Destination {
     /// An arrival prior of its own in place of the scenario's.
     #[must_use]
     pub fn arrival(self, arrival: Arrival) -> Self {
-        Self { arrival: Some(arrival), ..self }
+        Self { arrival: Some(Box::new(arrival)), ..self }
     }
 
     /// Its id.
@@ -113,7 +114,12 @@ impl Destination {
     /// # Errors
     /// As [`Destination::read`].
     pub(crate) fn read_all(node: &Node<'_>, dimensions: usize) -> Result<Vec<Self>> {
-        node.items()?.map(|item| Self::read(&item, dimensions)).collect()
+        let items = node.items()?;
+        let mut all = Vec::with_capacity(items.len());
+        for item in items {
+            all.push(Self::read(&item, dimensions)?);
+        }
+        Ok(all)
     }
 
     /// Reads `{ id, mean, covariance }` or `{ id, center, size, endVelocity? }`, each with `prior?` (1) and `arrival?`.
@@ -133,7 +139,7 @@ impl Destination {
             mean: numbers("mean")?,
             covariance: fields.optional("covariance").map(|covariance| Matrix::read(&covariance)).transpose()?,
             prior: number("prior")?.unwrap_or(1.0),
-            arrival: fields.optional("arrival").map(|arrival| Arrival::read(&arrival)).transpose()?,
+            arrival: fields.optional("arrival").map(|arrival| Arrival::read(&arrival).map(Box::new)).transpose()?,
         })
     }
 
@@ -141,14 +147,15 @@ impl Destination {
     ///
     /// # Errors
     /// `unknown-key`, `missing-key`, `wrong-length`, `not-finite`, `out-of-range`, `not-positive-definite`.
-    fn check(self, path: &Path<'_>, dimensions: usize, states: usize) -> Result<(Endpoint, EndpointClass)> {
+    fn check(&self, path: &Path<'_>, dimensions: usize, states: usize) -> Result<(Endpoint, EndpointClass)> {
         let missing =
             |key: &str| Error::new(Code::MissingKey, path.key(key).to_string(), format!("missing key {}", quote(key)));
         let prior = path.key("prior").not_negative(self.prior)?;
         if let Some(arrival) = &self.arrival {
             arrival.check(&path.key("arrival"))?;
         }
-        let (mean, class) = if let Some(center) = &self.center {
+        let mut center = [0.0; AXES];
+        let (rest, class) = if let Some(given) = &self.center {
             let refused = "cannot be combined with center and size";
             if let Some(mean) = &self.mean {
                 return Err(path.key("mean").error(Code::UnknownKey, refused, mean.as_slice()));
@@ -156,9 +163,11 @@ impl Destination {
             if let Some(covariance) = &self.covariance {
                 return Err(path.key("covariance").error(Code::UnknownKey, refused, covariance));
             }
-            let center = path.key("center").vector(center, dimensions, |at, x| at.number(x))?;
+            let given = path.key("center").vector(given, dimensions, |at, x| at.number(x))?;
+            center[..dimensions].copy_from_slice(given);
+            let mut sides = [0.0; AXES];
             let size = self.size.as_ref().ok_or_else(|| missing("size"))?;
-            let size = size.check(&path.key("size"), dimensions, |at, x| at.positive(x))?;
+            size.write(&path.key("size"), |at, x| at.positive(x), &mut sides[..dimensions])?;
             if let Some(deviation) = self.end_velocity {
                 let path = path.key("endVelocity");
                 if states < 2 * dimensions {
@@ -166,7 +175,7 @@ impl Destination {
                 }
                 path.positive(deviation)?;
             }
-            (center, EndpointClass::of_box(&size, self.end_velocity, self.arrival))
+            (Box::default(), EndpointClass::of_box(sides, dimensions, self.end_velocity, self.arrival.clone()))
         } else {
             let refused = "cannot be combined with mean and covariance";
             if let Some(size) = &self.size {
@@ -184,11 +193,11 @@ impl Destination {
             let mean = at.each(mean, |at, x| at.number(x))?;
             let covariance = self.covariance.as_ref().ok_or_else(|| missing("covariance"))?;
             let covariance = covariance.covariance(&path.key("covariance"), mean.len())?;
-            (mean, EndpointClass::of_covariance(covariance, self.arrival))
+            let (first, rest) = mean.split_at(dimensions);
+            center[..dimensions].copy_from_slice(first);
+            (rest.into(), EndpointClass::of_covariance(covariance, self.arrival.clone()))
         };
-        let mut center = [0.0; AXES];
-        center.iter_mut().zip(&mean[..dimensions]).for_each(|(to, from)| *to = *from);
-        Ok((Endpoint { id_end: 0, center, rest: mean[dimensions..].into(), prior, class: 0 }, class))
+        Ok((Endpoint { id_end: 0, center, rest, prior, class: 0 }, class))
     }
 
     /// The scenario's own form.
@@ -202,7 +211,7 @@ impl Destination {
             ("mean", self.mean.as_ref().map(Value::numbers)),
             ("covariance", self.covariance.as_ref().map(Value::from)),
             ("prior", Some(Value::Number(self.prior))),
-            ("arrival", self.arrival.as_ref().map(Arrival::to_value)),
+            ("arrival", self.arrival.as_ref().map(|arrival| arrival.to_value())),
         ];
         Value::some(fields.into())
     }

@@ -111,7 +111,7 @@ impl Initial {
             Self::Gaussian { mean, covariance, .. } => {
                 let mean = at.key("mean").vector(mean, states, |at, x| at.number(x))?;
                 let covariance = covariance.covariance(&at.key("covariance"), states)?;
-                Prior::Given(Gaussian { mean: DVector::from_vec(mean), covariance })
+                Prior::Given(Gaussian { mean: DVector::from_column_slice(mean), covariance })
             }
             Self::Flat { velocity, acceleration } => {
                 let mut deviations = defaults.to_vec();

@@ -52,10 +52,18 @@ impl PerAxis {
 
     /// A number for each of the axes, each of which passes `check`.
     pub(crate) fn check(&self, at: &Path<'_>, axes: usize, check: Check) -> Result<Vec<f64>> {
+        let mut each = vec![0.0; axes];
+        self.write(at, check, &mut each)?;
+        Ok(each)
+    }
+
+    /// The same, written into a list of as many.
+    pub(crate) fn write(&self, at: &Path<'_>, check: Check, into: &mut [f64]) -> Result<()> {
         match self {
-            Self::All(x) => Ok(vec![check(at, *x)?; axes]),
-            Self::Each(each) => at.vector(each, axes, check),
+            Self::All(x) => into.fill(check(at, *x)?),
+            Self::Each(each) => into.copy_from_slice(at.vector(each, into.len(), check)?),
         }
+        Ok(())
     }
 
     /// One number where all axes have the same, a list where they differ.

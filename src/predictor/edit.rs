@@ -43,8 +43,8 @@ impl Predictor {
     /// # Errors
     /// Those of a scenario's destinations, and as [`Predictor::add_destination`].
     pub fn set_destinations(&mut self, destinations: impl IntoIterator<Item = Destination>) -> Result<()> {
-        let list = destinations.into_iter().collect();
-        self.replace(Destinations::new(list, self.dimensions(), self.states())?)
+        let list: Vec<Destination> = destinations.into_iter().collect();
+        self.replace(Destinations::new(&list, self.dimensions(), self.states())?)
     }
 
     fn replace(&mut self, changed: Destinations) -> Result<()> {

@@ -130,7 +130,7 @@ impl ScenarioBuilder {
         if let Some(learning) = &self.learning {
             learning.check(&root.key("learning"))?;
         }
-        let destinations = Arc::new(Destinations::new(self.destinations, d, s)?);
+        let destinations = Arc::new(Destinations::new(&self.destinations, d, s)?);
         let scenario =
             Scenario { motion, observation, initial, setup, none: self.none, learning: self.learning, destinations };
         scenario.check()?;

@@ -7,7 +7,7 @@
 //! | 0 | null | |
 //! | 1, 2 | false, true | |
 //! | 3 | a number | 64 bits |
-//! | 4 | a text | its length, as many units of UTF-16 |
+//! | 4 | a text | its length, as many bytes of UTF-8 |
 //! | 5 | a list | its length, its items |
 //! | 6 | an object | its length; of each entry the number of its key and the value |
 //!
@@ -51,24 +51,32 @@ impl Reader<'_> {
         self.take().map(|bytes| u32::from_le_bytes(bytes) as usize)
     }
 
-    fn text(&mut self) -> Option<String> {
+    fn text(&mut self) -> Option<&str> {
         let length = self.count()?;
-        let (units, rest) = self.rest.split_at_checked(2 * length)?;
+        let (text, rest) = self.rest.split_at_checked(length)?;
         self.rest = rest;
-        let mut text = String::with_capacity(length);
-        let units = units.as_chunks().0.iter().map(|unit| u16::from_le_bytes(*unit));
-        // JavaScript's strings may have half of a pair of units, which no text has
-        text.extend(char::decode_utf16(units).map(|found| found.unwrap_or(char::REPLACEMENT_CHARACTER)));
-        Some(text)
+        std::str::from_utf8(text).ok()
     }
 
     fn key(&mut self) -> Option<Key> {
         let number = self.count()?;
         if number == self.keys.len() {
-            let key = self.text()?;
-            self.keys.push(key.into());
+            let key = self.text()?.into();
+            self.keys.push(key);
         }
         self.keys.get(number).cloned()
+    }
+
+    /// The next values, if all are numbers, as in most lists: without a call for each.
+    fn numbers(&mut self, count: usize) -> Option<Vec<Value>> {
+        let (all, rest) = self.rest.split_at_checked(count.checked_mul(9)?)?;
+        let all = all.as_chunks::<9>().0;
+        if all.iter().any(|[tag, ..]| *tag != 3) {
+            return None;
+        }
+        self.rest = rest;
+        let number = |[_, bytes @ ..]: &[u8; 9]| Value::Number(f64::from_le_bytes(*bytes));
+        Some(all.iter().map(number).collect())
     }
 
     fn value(&mut self) -> Option<Value> {
@@ -78,9 +86,12 @@ impl Reader<'_> {
             1 => Value::Bool(false),
             2 => Value::Bool(true),
             3 => Value::Number(f64::from_le_bytes(self.take()?)),
-            4 => Value::Text(self.text()?),
+            4 => Value::text(self.text()?),
             5 => {
                 let count = self.count()?;
+                if let Some(numbers) = self.numbers(count) {
+                    return Some(Value::List(numbers));
+                }
                 // no item is shorter than a byte
                 let mut items = Vec::with_capacity(count.min(self.rest.len()));
                 for _ in 0..count {
@@ -113,8 +124,8 @@ impl<'a> Writer<'a> {
     }
 
     fn text(&mut self, text: &str) {
-        self.count(text.encode_utf16().count());
-        text.encode_utf16().for_each(|unit| self.bytes.extend(unit.to_le_bytes()));
+        self.count(text.len());
+        self.bytes.extend(text.as_bytes());
     }
 
     fn value(&mut self, value: &'a Value) {
@@ -178,10 +189,10 @@ mod tests {
     }
 
     #[test]
-    fn half_of_a_pair_of_units_is_replaced() {
-        let text = [4, 2, 0, 0, 0, 0x3d, 0xd8, b'a', 0];
-        assert_eq!(Value::from_bytes(&text).unwrap(), Value::text("\u{fffd}a"));
-        let entry = [6, 1, 0, 0, 0, 1, 0, 0, 0, 0];
-        assert_eq!(Value::from_bytes(&entry).unwrap_err().message(), "must be plain data");
+    fn what_was_not_written_is_no_data() {
+        let (no_tag, no_key, no_text) = (vec![7], vec![6, 1, 0, 0, 0, 1, 0, 0, 0, 0], vec![4, 1, 0, 0, 0, 0xff]);
+        for bytes in [no_tag, no_key, no_text] {
+            assert_eq!(Value::from_bytes(&bytes).unwrap_err().message(), "must be plain data");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The keys of an object.
 
-use super::{Key, Node, Value, quote};
+use super::{Key, Node, Value, quote, same};
 use crate::error::{Code, Error, Result};
 
 /// An object whose keys have been checked.
@@ -14,7 +14,7 @@ impl<'a> Fields<'a> {
     /// The value at `key`, or none where it is absent or null.
     #[must_use]
     pub fn optional(&self, key: &'a str) -> Option<Node<'a>> {
-        let (_, value) = self.entries.iter().find(|(k, v)| **k == *key && *v != Value::Null)?;
+        let (_, value) = self.entries.iter().find(|(k, v)| same(k, key) && !matches!(v, Value::Null))?;
         Some(Node { value, path: self.node.place().key(key) })
     }
 

@@ -150,6 +150,12 @@ impl From<&Vec<f64>> for Value {
     }
 }
 
+/// Whether two keys are the same. Most differ in their lengths, which are compared without a call.
+#[inline(always)]
+fn same(a: &str, b: &str) -> bool {
+    a.len() == b.len() && a == b
+}
+
 /// A value and its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<'a> {
@@ -198,12 +204,12 @@ impl<'a> Node<'a> {
         };
         for (i, (key, _)) in entries.iter().enumerate() {
             let path = || self.path.key(key).to_string();
-            if !legal.contains(&&**key) {
+            if !legal.iter().any(|legal| same(key, legal)) {
                 let legal: Vec<String> = legal.iter().map(|k| quote(k)).collect();
                 let message = format!("unknown key {}, expected one of {}", quote(key), legal.join(", "));
                 return Err(Error::new(Code::UnknownKey, path(), message));
             }
-            if entries[..i].iter().any(|(before, _)| before == key) {
+            if entries[..i].iter().any(|(before, _)| same(before, key)) {
                 return Err(Error::new(Code::UnknownKey, path(), format!("duplicate key {}", quote(key))));
             }
         }
@@ -214,7 +220,7 @@ impl<'a> Node<'a> {
     #[must_use]
     pub fn get<'b>(&'b self, key: &'b str) -> Option<Node<'b>> {
         let Value::Map(entries) = self.value else { return None };
-        let (_, value) = entries.iter().find(|(k, v)| **k == *key && *v != Value::Null)?;
+        let (_, value) = entries.iter().find(|(k, v)| same(k, key) && !matches!(v, Value::Null))?;
         Some(Node { value, path: self.path.key(key) })
     }
 
@@ -245,7 +251,12 @@ impl<'a> Node<'a> {
     /// # Errors
     /// `wrong-type`.
     pub fn floats(&self) -> Result<Vec<f64>> {
-        self.numbers(|item| item.float())
+        let Value::List(items) = self.value else { return Err(self.error(Code::WrongType, "must be a list")) };
+        if let Some(i) = items.iter().position(|item| !matches!(item, Value::Number(_))) {
+            return Err(Node { value: &items[i], path: self.path.index(i) }.error(Code::WrongType, "must be a number"));
+        }
+        // in two passes, of which none calls a function for each
+        Ok(items.iter().map(|item| if let Value::Number(x) = item { *x } else { 0.0 }).collect())
     }
 
     /// A number that passes [`Path::number`].

@@ -81,13 +81,16 @@ impl<'a> Path<'a> {
         Ok(x as usize)
     }
 
-    /// Numbers that pass `check`, each.
-    pub fn each(&self, numbers: &[f64], check: Check) -> Result<Vec<f64>> {
-        numbers.iter().enumerate().map(|(i, x)| check(&self.index(i), *x)).collect()
+    /// The numbers, if each passes `check`.
+    pub fn each<'n>(&self, numbers: &'n [f64], check: Check) -> Result<&'n [f64]> {
+        for (i, x) in numbers.iter().enumerate() {
+            check(&self.index(i), *x)?;
+        }
+        Ok(numbers)
     }
 
-    /// So many numbers that pass `check`, each.
-    pub fn vector(&self, numbers: &[f64], length: usize, check: Check) -> Result<Vec<f64>> {
+    /// The numbers, if there are so many and each passes `check`.
+    pub fn vector<'n>(&self, numbers: &'n [f64], length: usize, check: Check) -> Result<&'n [f64]> {
         if numbers.len() != length {
             let must = format!("must have {length} numbers, has {}", numbers.len());
             return Err(self.error(Code::WrongLength, &must, numbers));

@@ -2,6 +2,7 @@
 
 use super::Arrival;
 use nalgebra::{DMatrix, DVector};
+use std::hash::{Hash, Hasher};
 use whither_kernel::mixture::AXES;
 
 /// What destinations share whose endpoints differ in their means alone: the endpoint's covariance `S_i` and the arrival prior,
@@ -21,14 +22,18 @@ enum Shape {
 }
 
 impl EndpointClass {
-    pub(super) fn of_box(given: &[f64], end_velocity: Option<f64>, arrival: Option<Arrival>) -> Self {
-        let mut size = [0.0; AXES];
-        size.iter_mut().zip(given).for_each(|(side, given)| *side = *given);
-        Self { shape: Shape::Box { size, dimensions: given.len(), end_velocity }, arrival: arrival.map(Box::new) }
+    /// Sides beyond the dimensions are zero.
+    pub(super) fn of_box(
+        size: [f64; AXES],
+        dimensions: usize,
+        end_velocity: Option<f64>,
+        arrival: Option<Box<Arrival>>,
+    ) -> Self {
+        Self { shape: Shape::Box { size, dimensions, end_velocity }, arrival }
     }
 
-    pub(super) fn of_covariance(covariance: DMatrix<f64>, arrival: Option<Arrival>) -> Self {
-        Self { shape: Shape::Gaussian(Box::new(covariance)), arrival: arrival.map(Box::new) }
+    pub(super) fn of_covariance(covariance: DMatrix<f64>, arrival: Option<Box<Arrival>>) -> Self {
+        Self { shape: Shape::Gaussian(Box::new(covariance)), arrival }
     }
 
     /// How many components of the state the endpoint names, `l`.
@@ -101,22 +106,37 @@ impl EndpointClass {
         given.unwrap_or_else(|| (12.0 * self.variance(axis, axis)).sqrt())
     }
 
-    /// Equal classes have equal fingerprints, and only they: all their numbers, bit by bit.
-    pub(super) fn fingerprint(&self) -> Vec<u64> {
-        let mut bits = Vec::new();
-        match &self.shape {
-            Shape::Box { size, end_velocity, .. } => {
-                bits.push(end_velocity.unwrap_or(0.0).to_bits());
-                bits.extend(size.iter().map(|side| side.to_bits()));
+    /// Equal classes have equal fingerprints, and only they.
+    pub(super) fn fingerprint(&self) -> Fingerprint {
+        let mut more = Vec::new();
+        let box_of = match &self.shape {
+            Shape::Box { size: [x, y, z], end_velocity, .. } => {
+                [end_velocity.unwrap_or(0.0), *x, *y, *z].map(f64::to_bits)
             }
             Shape::Gaussian(covariance) => {
-                bits.push(u64::MAX);
-                bits.extend(covariance.iter().map(|x| x.to_bits()));
+                more.extend(covariance.iter().map(|x| x.to_bits()));
+                [u64::MAX; 1 + AXES]
             }
-        }
+        };
         if let Some(arrival) = &self.arrival {
-            arrival.to_value().bits(&mut bits);
+            arrival.to_value().bits(&mut more);
         }
-        bits
+        Fingerprint { box_of, more }
+    }
+}
+
+/// All numbers of a class, bit by bit.
+#[derive(PartialEq, Eq)]
+pub(super) struct Fingerprint {
+    box_of: [u64; 1 + AXES],
+    /// Empty for a box without an arrival prior: thousands of sizes are not allocated.
+    more: Vec<u64>,
+}
+
+impl Hash for Fingerprint {
+    /// The words made one, since the hash itself takes byte by byte: a rotation, a difference and a product for each.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let mix = |hash: u64, word: &u64| (hash.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        state.write_u64(self.box_of.iter().chain(&self.more).fold(0, mix));
     }
 }

@@ -1,5 +1,6 @@
 //! The destinations of a predictor: found by their ids, and by the classes that share their matrices.
 
+use super::class::Fingerprint;
 use super::{Destination, Endpoint, EndpointClass};
 use crate::error::{Code, Error, Result};
 use crate::value::{Path, Value, number, quote};
@@ -28,7 +29,7 @@ impl Destinations {
     /// # Errors
     /// Those of [`Destination`], at `destinations[i]`; `no-destinations`, `duplicate-id`, `too-large`, and `out-of-range` where no
     /// prior is above zero.
-    pub fn new(list: Vec<Destination>, dimensions: usize, states: usize) -> Result<Self> {
+    pub fn new(list: &[Destination], dimensions: usize, states: usize) -> Result<Self> {
         let (path, count) = (&Path::root("destinations"), list.len());
         if count == 0 {
             let message = "must have at least one destination, has none";
@@ -44,8 +45,8 @@ impl Destinations {
             classes: Vec::new(),
             priors: Vec::with_capacity(count),
         };
-        let mut classes: FnvHashMap<Vec<u64>, usize> = FnvHashMap::default();
-        for (i, destination) in list.into_iter().enumerate() {
+        let mut classes: FnvHashMap<Fingerprint, usize> = FnvHashMap::default();
+        for (i, destination) in list.iter().enumerate() {
             let path = path.index(i);
             all.ids.push_str(&destination.id);
             let (mut endpoint, class) = destination.check(&path, dimensions, states)?;
@@ -90,16 +91,16 @@ impl Destinations {
     /// # Errors
     /// Those of [`Destination`], at `destination`; `duplicate-id`, `too-large`.
     pub fn with(&self, destination: Destination, states: usize) -> Result<Self> {
-        let id = destination.id.clone();
+        let id = &destination.id;
         let (mut endpoint, class) = destination.check(&Path::root("destination"), self.dimensions, states)?;
-        if let Some(first) = self.find(&id) {
-            return Err(duplicate(&Path::root("id"), &id, first));
+        if let Some(first) = self.find(id) {
+            return Err(duplicate(&Path::root("id"), id, first));
         }
         if self.len() >= MOST_DESTINATIONS {
             return Err(too_many(&Path::root("destinations"), ""));
         }
         let mut changed = self.clone();
-        changed.ids.push_str(&id);
+        changed.ids.push_str(id);
         endpoint.id_end = changed.ids.len();
         changed.endpoints.push(endpoint);
         changed.reclassify(self.len(), Some(class));

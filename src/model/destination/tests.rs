@@ -1,7 +1,7 @@
 use super::*;
 
 fn list(list: Vec<Destination>) -> Result<Destinations> {
-    Destinations::new(list, 2, 4)
+    Destinations::new(&list, 2, 4)
 }
 
 fn side(id: &str, side: f64) -> Destination {
@@ -44,7 +44,7 @@ fn a_description_is_validated_where_it_is_taken() {
         let error = list(vec![ok(), wrong]).unwrap_err();
         assert_eq!(format!("{} {error}", error.code().as_str()), expected);
     }
-    let error = Destinations::new(vec![ok().end_velocity(4.0)], 2, 2).unwrap_err();
+    let error = Destinations::new(&[ok().end_velocity(4.0)], 2, 2).unwrap_err();
     assert_eq!(error.to_string(), "destinations[0].endVelocity: the motion model has no velocity, got 4");
 }
 
@@ -98,6 +98,6 @@ fn what_is_read_is_written_again() {
         {"id":"b","mean":[1,2],"covariance":[[1,0],[0,2]],"prior":3,"arrival":{"type":"uniform","from":1,"to":2}}]"#;
     let value: Value = serde_json::from_str(text).unwrap();
     let destinations =
-        Destinations::new(Destination::read_all(&Node::root(&value, "destinations"), 2).unwrap(), 2, 4).unwrap();
+        Destinations::new(&Destination::read_all(&Node::root(&value, "destinations"), 2).unwrap(), 2, 4).unwrap();
     assert_eq!(destinations.to_value(), value);
 }

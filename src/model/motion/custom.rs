@@ -67,7 +67,13 @@ impl Custom {
         let gain =
             destination_gain.map(|gain| gain.check(&at.key("destinationGain"), states, dimensions)).transpose()?;
         let equation = VanLoan::new(&drift, &density);
-        Ok(Self { dimensions, states, offset: offset.map(DVector::from_vec), destination_gain: gain, equation })
+        Ok(Self {
+            dimensions,
+            states,
+            offset: offset.map(DVector::from_column_slice),
+            destination_gain: gain,
+            equation,
+        })
     }
 }
 

@@ -80,7 +80,7 @@ impl MotionNoise {
         if !checked.iter().sum::<f64>().is_finite() {
             return Err(place.error(Code::OutOfRange, "must have a finite sum", weights.as_slice()));
         }
-        Ok(noises.into_iter().zip(checked).collect())
+        Ok(noises.into_iter().zip(checked.iter().copied()).collect())
     }
 
     pub(super) fn to_value(&self) -> Value {
