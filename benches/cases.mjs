@@ -24,10 +24,15 @@ const budgets = [
 ];
 
 /** What is done once a movement or less: how many ordinary steps of 10 000 it may cost. */
-export const seldomLimits = { first: 3, setDestinations: 40, constructing: 50 };
+export const seldomLimits = { first: 3, setTargets: 5, setDestinations: 40, constructing: 50 };
 
-/** The rows of its table. */
-export const seldom = ["pseudoObservation", "pointing"].map((method) => complete({ group: "seldom", method, count: 10_000 }));
+/** It is measured with so many times as many destinations too: how much longer it may take for each of them. */
+export const seldomGrowth = { times: 5, limit: 1.5 };
+
+/** The rows of its table; `pointer` is the class of `whither/pointing`. */
+export const seldom = [{ method: "pseudoObservation" }, { method: "pointing" }, { method: "pointing", pointer: true }].flatMap(
+  (kind) => ["one", "own"].map((sizes) => complete({ group: "seldom", ...kind, sizes, count: 10_000 })),
+);
 
 /**
  * `{ group, name, count, pairs, ... }`: `length` is that of a movement, where it has to end; `before` the number of
@@ -69,6 +74,7 @@ function complete(row) {
     sizes === "own" ? "own sizes" : "",
     coupled ? "coupled" : "",
     before === undefined ? "" : `after ${before}`,
+    row.pointer ? "PointerPredictor" : "",
   ];
   return { ...filled, name: name.filter((part) => part !== "").join(", "), pairs: count * (pointing ? POINTING : points) };
 }

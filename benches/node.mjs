@@ -2,6 +2,7 @@
 import { writeFileSync } from "node:fs";
 import kalman from "kalman-filter";
 import { init, pointerScenario, Predictor } from "whither";
+import { init as initPointing, PointerPredictor } from "whither/pointing";
 import { cases, seldom } from "./cases.mjs";
 import { interleave } from "./measure.mjs";
 import { sweep } from "./scenarios.mjs";
@@ -14,8 +15,8 @@ const clock = () => {
 };
 const progress = (name) => console.log(`Node: ${name}`);
 
-await init();
-const whither = { Predictor, pointerScenario };
+await Promise.all([init(), initPointing()]);
+const whither = { Predictor, PointerPredictor, pointerScenario };
 
 /** One step of the npm package kalman-filter for each of 21 destinations, constant velocity in two dimensions. */
 function measureKalmanFilter(options) {
@@ -55,6 +56,6 @@ const result = {
 };
 for (const row of seldom) {
   progress(row.name);
-  result.seldom[row.method] = await measureSeldom(whither, row, clock, options);
+  result.seldom[row.name] = measureSeldom(whither, row, clock, options);
 }
 writeFileSync(file, JSON.stringify(result));

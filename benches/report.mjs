@@ -1,7 +1,7 @@
 // The tables of `npm run bench`.
 import { showSizes } from "../scripts/size.mjs";
 import { table } from "../scripts/table.mjs";
-import { seldomLimits } from "./cases.mjs";
+import { seldom, seldomGrowth, seldomLimits } from "./cases.mjs";
 import { LIMIT } from "./dom.mjs";
 import { line } from "./measure.mjs";
 
@@ -54,8 +54,8 @@ function showUnit(platforms) {
   );
 }
 
-function describe({ method, sizes, coupled }) {
-  if (method === "pointing") return sizes === "own" ? "pointing, each its size" : "pointing";
+function describe({ method, sizes, coupled, pointer }) {
+  if (method === "pointing") return `${pointer ? "PointerPredictor" : method}${sizes === "own" ? ", each its size" : ""}`;
   return coupled ? "coupled noise" : sizes === "own" ? "each its size" : "one size";
 }
 
@@ -76,16 +76,31 @@ function showBudgets(rows, platforms) {
   );
 }
 
-function showSeldom(methods) {
-  console.log("What is done once a movement or less, with the step that follows, in ordinary steps of 10 000, Node:\n");
-  const names = { first: "first observation", setDestinations: "`setDestinations`", constructing: "constructing" };
-  const cells = Object.entries(methods).flatMap(([method, times]) =>
-    Object.entries(names).map(([key, name]) => {
-      const { microseconds, ratio } = times[key];
-      return [`${method}, ${name}`, digits(microseconds), digits(ratio), seldomLimits[key], met(ratio <= seldomLimits[key])];
+function showSeldom(results) {
+  const { times, limit } = seldomGrowth;
+  console.log(
+    "What is done once a movement or less, with the step that follows, in ordinary steps of 10 000, Node; and with " +
+      `${count(10_000 * times)} the time for each destination against that with 10 000, 1 if linear, at most ${limit}:\n`,
+  );
+  const names = {
+    first: "first observation",
+    setTargets: "`setTargets`",
+    setDestinations: "`setDestinations`",
+    constructing: "constructing",
+  };
+  const cells = seldom.flatMap((row) =>
+    Object.entries(names).flatMap(([key, name]) => {
+      const found = results[row.name][key];
+      if (!found) return [];
+      const { microseconds, ratio, growth } = found;
+      const most = seldomLimits[key];
+      const kind = row.method === "pointing" ? describe(row) : `${row.method}, ${describe(row)}`;
+      return [
+        [`${kind}, ${name}`, digits(microseconds), digits(ratio), most, met(ratio <= most), digits(growth), met(growth <= limit)],
+      ];
     }),
   );
-  table(["", "µs", "steps", "at most", ""], cells);
+  table(["", "µs", "steps", "at most", "", `with ${count(10_000 * times)}`, ""], cells);
 }
 
 /** The exponent of a power law through the points. */

@@ -1,14 +1,17 @@
 // The measurements that run alike in Node and in a browser, through the public class with its checks.
 import { interleave } from "./measure.mjs";
-import { exponents, INTERVAL, scenario, sweep } from "./scenarios.mjs";
+import { seldomGrowth } from "./cases.mjs";
+import { exponents, INTERVAL, scenario, sweep, targets } from "./scenarios.mjs";
 import { check, checkUnit, unit, ways } from "./yardstick.mjs";
 
 /** How long each is measured: rounds, and the least milliseconds of one and of what comes before. */
 export const effort = (quick) => (quick ? { rounds: 5, least: 3, warmUp: 30 } : { rounds: 15, least: 8, warmUp: 200 });
 
 /** A predictor in mid-movement, and one `observe` and `probabilities(into)` of it. */
-export function step({ Predictor, pointerScenario }, { length = Infinity, before = 20, ...row }) {
-  const predictor = new Predictor(scenario({ ...row, length: length === Infinity ? undefined : length }, pointerScenario));
+export function step({ Predictor, PointerPredictor, pointerScenario }, { length = Infinity, before = 20, ...row }) {
+  const predictor = row.pointer
+    ? new PointerPredictor(targets(row))
+    : new Predictor(scenario({ ...row, length: length === Infinity ? undefined : length }, pointerScenario));
   const into = new Float64Array(row.count);
   const positions = sweep.map((position) => Float64Array.from(position.slice(0, row.dimensions ?? 2)));
   let k = 0;
@@ -60,15 +63,23 @@ export async function measureCases(where, whither, list, clock, options, progres
   return { cases: results, exp: checked() };
 }
 
-/**
- * What is done once a movement or less, by name, against an ordinary step in the same rounds; each with the observation and the
- * probabilities that follow, so that nothing is put off.
- */
-export async function measureSeldom({ Predictor, pointerScenario }, row, clock, options) {
-  const { run, predictor } = step({ Predictor, pointerScenario }, row);
+/** How a predictor is made, and how all its destinations are set: every second time they have moved by one unit. */
+function making({ Predictor, PointerPredictor, pointerScenario }, row) {
+  if (row.pointer) {
+    const given = targets(row);
+    const lists = [given, given.map((one) => ({ ...one, x: one.x + 1 }))];
+    return { make: () => new PointerPredictor(given), setTargets: (of, k) => of.setTargets(lists[k & 1]) };
+  }
   const given = scenario(row, pointerScenario);
-  const moved = (by) => given.destinations.map((one) => ({ ...one, center: one.center.map((x) => x + by) }));
-  const lists = [moved(0), moved(1)];
+  const moved = given.destinations.map((one) => ({ ...one, center: one.center.map((x) => x + 1) }));
+  const lists = [given.destinations, moved];
+  return { make: () => new Predictor(given), setDestinations: (of, k) => of.setDestinations(lists[k & 1]) };
+}
+
+/** What is done once a movement or less, each with the observation and the probabilities that follow, and a step: milliseconds. */
+function timeSeldom(whither, row, clock, options) {
+  const { run, predictor } = step(whither, row);
+  const { make, ...setting } = making(whither, row);
   const into = new Float64Array(row.count);
   let k = 0;
   const begin = (of) => {
@@ -78,15 +89,15 @@ export async function measureSeldom({ Predictor, pointerScenario }, row, clock, 
   const repeat = (work) => (times) => {
     for (let i = 0; i < times; i++, k++) work();
   };
-  const others = new Predictor(given);
+  const others = make();
   const entries = [
     { name: "step", run },
     { name: "first", run: repeat(() => (others.reset(), begin(others))) },
-    { name: "setDestinations", run: repeat(() => (others.setDestinations(lists[k & 1]), begin(others))) },
+    ...Object.entries(setting).map(([name, set]) => ({ name, run: repeat(() => (set(others, k), begin(others))) })),
     {
       name: "constructing",
       run: repeat(() => {
-        const made = new Predictor(given);
+        const made = make();
         begin(made);
         made.free();
       }),
@@ -94,6 +105,20 @@ export async function measureSeldom({ Predictor, pointerScenario }, row, clock, 
   ];
   const time = interleave(entries, clock, options);
   for (const one of [predictor, others]) one.free();
-  const against = ([name, milliseconds]) => [name, { microseconds: 1000 * milliseconds, ratio: milliseconds / time.step }];
-  return Object.fromEntries(Object.entries(time).map(against));
+  return time;
+}
+
+/**
+ * What is done once a movement or less, by name: `{ microseconds, ratio, growth }`, the ratio to an ordinary step in the same rounds;
+ * the growth is the time for each destination where there are several times as many, against that where there are not, 1 if linear.
+ */
+export function measureSeldom(whither, row, clock, options) {
+  const { times } = seldomGrowth;
+  const time = timeSeldom(whither, row, clock, options);
+  const large = timeSeldom(whither, { ...row, count: times * row.count }, clock, options);
+  const result = ([name, milliseconds]) => {
+    const growth = large[name] / (times * milliseconds);
+    return [name, { microseconds: 1000 * milliseconds, ratio: milliseconds / time.step, growth }];
+  };
+  return Object.fromEntries(Object.entries(time).map(result));
 }
