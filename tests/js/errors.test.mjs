@@ -119,6 +119,20 @@ const scenarios = [
     "destinations[0].center[0]",
     "must be plain data (numbers, strings, lists, objects), got 1n, a bigint",
   ],
+  [
+    "a list that is too long, behind others",
+    small({ destinations: [left, { ...middle, size: [1, 2], center: new Float64Array(1_000_001) }] }),
+    "too-large",
+    "destinations[1].center",
+    "must have no more than 1000000 items, has 1000001",
+  ],
+  [
+    "half of a pair of units in a key",
+    small({ learning: { "é\ud83d": 1 } }),
+    "unknown-key",
+    "learning.é\ufffd",
+    'unknown key "é\ufffd", expected one of "strength", "forgetting", "afterLast"',
+  ],
   ["an object that refers to itself", cyclic, "wrong-type", "motion.itself", "must be plain data, refers to itself"],
   [
     "a list that is too deep",

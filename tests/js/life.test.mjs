@@ -12,6 +12,16 @@ function moved(scenario, samples = movement) {
   return predictor;
 }
 
+test("ids of any characters, in as long a list as one likes", () => {
+  const ids = ["a", "\0", "ß", "\ufeffid", "😀", `${"x".repeat(300)}é`, ...Array.from({ length: 300 }, (_, i) => `${i}`)];
+  const named = (id, i) => ({ id, center: [i, 2], size: 3 });
+  const predictor = new Predictor(small({ destinations: ids.map(named) }));
+  assert.deepEqual(predictor.destinations, ids);
+  assert.deepEqual(Predictor.restore(predictor.snapshot()).destinations, ids);
+  predictor.setDestinations(["half\ud83d", "\ude00"].map(named));
+  assert.deepEqual(predictor.destinations, ["half\ufffd", "\ufffd"]);
+});
+
 /** Everything that a predictor returns. */
 function everything(predictor) {
   const { mean, deviation, times, probabilities } = predictor.arrival();
