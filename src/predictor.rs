@@ -307,23 +307,29 @@ impl Predictor {
         if let Some(learning) = &self.scenario.learning {
             self.habits.chosen(learning, id);
             self.apply_habits();
-            self.replan();
         }
         Ok(())
     }
 
-    /// Gives the movement the priors that have changed.
-    pub(crate) fn replan(&mut self) {
-        if let Some(movement) = &mut self.movement {
-            movement.engine.replan(&self.destinations, None);
-        }
+    /// Puts the priors that were learnt in force, in mid-movement too.
+    pub(crate) fn apply_habits(&mut self) {
+        self.put_in_force(Destinations::clone(&self.destinations), None);
     }
 
-    /// Puts the priors that were learnt in force for the destinations as they are.
-    pub(crate) fn apply_habits(&mut self) {
-        let Some(learning) = &self.scenario.learning else { return };
-        let priors = self.habits.priors(learning, &self.destinations);
-        Arc::make_mut(&mut self.destinations).learn(priors);
+    /// Puts destinations in force, with the priors that were learnt for them, in mid-movement too; `origin` as in
+    /// [`Engine::replan`](crate::engine::Engine::replan).
+    fn put_in_force(&mut self, destinations: Destinations, origin: Option<&[usize]>) {
+        let destinations = match &self.scenario.learning {
+            Some(learning) => {
+                let priors = self.habits.priors(learning, &destinations);
+                destinations.with_priors(priors)
+            }
+            None => destinations,
+        };
+        self.destinations = Arc::new(destinations);
+        if let Some(movement) = &mut self.movement {
+            movement.engine.replan(&self.destinations, origin);
+        }
         self.stale = true;
     }
 }

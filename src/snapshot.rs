@@ -117,7 +117,6 @@ impl Predictor {
         if let Some(habits) = fields.optional("habits") {
             predictor.habits = Habits::load(&habits)?;
             predictor.apply_habits();
-            predictor.replan();
         }
         Ok(predictor)
     }

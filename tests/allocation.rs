@@ -92,6 +92,33 @@ fn pointing_allocates_nothing_after_the_first_observations() {
     }
 }
 
+/// Bytes that the beginning of a movement allocates for each target, after one before it.
+fn bytes_to_begin(make: fn(u32, Sizes) -> Predictor, sizes: Sizes) -> u64 {
+    let begin = |predictor: &mut Predictor| {
+        predictor.reset();
+        predictor.probabilities();
+        measure(|| movement(predictor, 0, 1)).bytes_total
+    };
+    let bytes = |count: u32| {
+        let mut predictor = make(count, sizes);
+        movement(&mut predictor, 0, 5);
+        let mut copy = predictor.clone();
+        let once = begin(&mut predictor);
+        assert_eq!([begin(&mut predictor), begin(&mut copy)], [once; 2], "every movement, and a copy's, begins alike");
+        once
+    };
+    (bytes(30_000) - bytes(10_000)) / 20_000
+}
+
+#[test]
+fn a_movement_begins_with_what_the_one_before_left() {
+    for sizes in [Sizes::One, Sizes::Two, Sizes::Own] {
+        assert_eq!(bytes_to_begin(pseudo_observation, sizes), 0);
+        // two numbers that depend on where it begins
+        assert_eq!(bytes_to_begin(pointing, sizes), 16);
+    }
+}
+
 /// Bytes that one more target takes, of a predictor in mid-movement.
 fn bytes_of_one_more(make: fn(u32, Sizes) -> Predictor, sizes: Sizes) -> i64 {
     let bytes = |count: u32| {

@@ -37,9 +37,8 @@ impl Layout {
         let start = self.blocks;
         self.blocks += members.len().div_ceil(WIDTH);
         self.own_variances |= own && !members.is_empty();
-        for chunk in members.chunks(WIDTH) {
-            self.order.extend((0..WIDTH).map(|lane| chunk.get(lane).copied().unwrap_or(PADDING)));
-        }
+        self.order.extend_from_slice(members);
+        self.order.resize(self.blocks * WIDTH, PADDING);
         start..self.blocks
     }
 

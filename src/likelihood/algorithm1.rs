@@ -50,7 +50,7 @@ impl Likelihood for Algorithm1 {
             // (11): Sigma_y
             let error = propagate(observation, &conditioned.covariance(), &step.measurement.noise);
             let Some(density) = Factor::new(error) else { continue };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 let mut mean = step.predicted.mean(i);
                 mean.gemv(1.0, &conditioned.gain, &scene.endpoint_error(i, &endpoint, &mean), 1.0);

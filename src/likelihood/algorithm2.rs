@@ -62,7 +62,7 @@ impl Likelihood for Algorithm2 {
             let prediction = &transition.transition - &onward.gain * (&rest.matrix * &transition.transition);
             let state = propagate(&prediction, &before.covariance(), &onward.covariance());
             let Some(density) = Factor::new(propagate(observation, &state, &step.measurement.noise)) else { continue };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 let mut smoothed = step.before.mean(i);
                 smoothed.gemv(1.0, &before.gain, &scene.endpoint_error(i, &total, &smoothed), 1.0);

@@ -96,7 +96,7 @@ impl Likelihood for Bridging {
             joint.view_mut((0, 0), (s, s)).copy_from(&scene.first.covariance);
             joint.view_mut((s, s), (l, l)).copy_from(&node.covariance);
             self.covariances[node.number] = joint;
-            for &i in &node.group.members {
+            for &i in node.members {
                 let place = (scene.plan.rows[i as usize] + node.index) * stride;
                 self.means[place..place + s].copy_from_slice(scene.first.mean.as_slice());
                 self.means[place + s..place + s + l].copy_from_slice(&scene.destinations.mean(i as usize));
@@ -120,7 +120,7 @@ impl Likelihood for Bridging {
                 let Some(correction) = condition(&predicted, &observation, &step.measurement.noise) else { continue };
                 Some(correction)
             };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 let row = scene.plan.rows[i] + node.index;
                 let place = row * stride;

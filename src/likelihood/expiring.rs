@@ -46,11 +46,11 @@ impl<F: Clone> Expiring<F> {
         Ok(())
     }
 
-    /// Other destinations, of which there is a node left or not.
-    pub fn replan(&mut self, is_alive: bool, replan: impl Fn(&mut F)) {
+    /// Other destinations, of which `is_alive` is whether there is a node left.
+    pub fn replan(&mut self, replan: impl Fn(&mut F), is_alive: impl FnOnce(&F) -> bool) {
         replan(&mut self.now);
         self.before = match self.before.take() {
-            _ if is_alive => None,
+            _ if is_alive(&self.now) => None,
             Some(mut before) => {
                 replan(&mut before);
                 Some(before)

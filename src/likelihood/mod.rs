@@ -179,6 +179,8 @@ impl fmt::Debug for dyn Likelihood + '_ {
 #[derive(Clone, Debug)]
 pub(crate) struct NodeOfGroup<'a> {
     pub group: &'a Group,
+    /// The destinations of the group.
+    pub members: &'a [u32],
     /// The node's place in its grid.
     pub index: usize,
     /// A number of its own for each (group, node), counting over all of the plan.
@@ -195,15 +197,17 @@ impl<'a> Scene<'a> {
     /// The (group, node) pairs that have not passed at `elapsed`.
     pub(crate) fn nodes_ahead(self, elapsed: f64) -> impl Iterator<Item = NodeOfGroup<'a>> {
         let mut first_number = 0;
-        self.plan.groups.iter().flat_map(move |group| {
+        self.plan.groups.iter().enumerate().flat_map(move |(g, group)| {
             let times = &self.plan.grids[group.grid].times;
             let base = first_number;
             first_number += times.len();
             let class = &self.destinations.classes()[group.class];
+            let members = self.plan.members.of(g);
             times.iter().enumerate().filter_map(move |(index, &time)| {
                 let remaining = self.plan.remaining(group.grid, time, elapsed);
                 (remaining > 0.0).then(|| NodeOfGroup {
                     group,
+                    members,
                     index,
                     number: base + index,
                     remaining,
@@ -228,7 +232,7 @@ impl<'a> Scene<'a> {
     pub(crate) fn copy_nodes_ahead(self, accumulated: &[f64], table: &mut [f64]) {
         table.fill(f64::NEG_INFINITY);
         for node in self.nodes_ahead(self.elapsed) {
-            for &i in &node.group.members {
+            for &i in node.members {
                 let place = self.plan.rows[i as usize] + node.index;
                 table[place] = accumulated[place];
             }

@@ -83,7 +83,7 @@ impl NodePosterior {
                 let place = c * bank.plan.grids[node.group.grid].times.len() + node.index;
                 let weight = |i: usize| node_weights[i].get(place).copied().unwrap_or(0.0);
                 let members: Vec<usize> =
-                    node.group.members.iter().map(|&i| i as usize).filter(|&i| weight(i) != 0.0).collect();
+                    node.members.iter().map(|&i| i as usize).filter(|&i| weight(i) != 0.0).collect();
                 if members.is_empty() {
                     return;
                 }

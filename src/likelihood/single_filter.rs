@@ -49,7 +49,7 @@ impl Likelihood for SingleFilterApproximate {
             let endpoint = Endpoint::after(scene.motion, node.remaining, node.covariance.nrows());
             let predicted = propagate(&endpoint.matrix, &covariance, &(&endpoint.noise + &node.covariance));
             let Some(density) = Factor::new(predicted) else { continue };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 let error = scene.endpoint_error(i, &endpoint, &scene.filter.mean(i));
                 table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i) + density.log_density(&error);
@@ -74,7 +74,7 @@ impl Likelihood for SingleFilter {
             both.view_mut((s, s), now.matrix.shape()).copy_from(&now.matrix);
             let joint = joint_root(&both, scene, &now.noise);
             let Some(integral) = Integral::new(scene, &node, joint) else { continue };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 // a - c, z having the mean c
                 let endpoint = scene.endpoint_error(i, &now, &scene.filter.mean(i));

@@ -106,8 +106,7 @@ impl Engine for Stepwise {
 
     fn replan(&mut self, destinations: &Arc<Destinations>, origin: Option<&[usize]>) {
         let plan = self.configuration.plan(destinations);
-        let is_alive = plan.is_alive(self.filters.now.elapsed);
-        self.filters.replan(is_alive, |bank| bank.replan(plan.clone(), origin));
+        self.filters.replan(|bank| bank.replan(plan.clone(), origin), |bank| bank.plan.is_alive(bank.elapsed));
         self.destinations = Arc::clone(destinations);
         self.nodes = None;
     }

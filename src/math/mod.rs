@@ -3,9 +3,11 @@
 pub mod cosine;
 pub mod decay;
 pub mod gaussian;
+pub mod grouped;
 pub mod kalman;
 pub mod log_sum_exp;
 pub mod quadrature;
+pub mod radix_sort;
 pub mod random;
 pub mod van_loan;
 

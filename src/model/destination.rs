@@ -9,6 +9,7 @@ use serde::{Serialize, Serializer};
 use whither_kernel::mixture::AXES;
 
 mod class;
+mod kept;
 mod list;
 
 pub use class::EndpointClass;

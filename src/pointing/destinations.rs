@@ -1,7 +1,6 @@
 //! The destinations of a scenario as targets.
 
 use super::targets::{Extent, Target, Targets};
-use super::vector;
 use crate::model::destination::{Destinations, EndpointClass};
 
 impl From<&Destinations> for Targets {
@@ -9,7 +8,7 @@ impl From<&Destinations> for Targets {
         let d = destinations.dimensions();
         let extents = destinations.classes().iter().map(|class| extent(class, d)).collect();
         let target = |i: usize| Target {
-            center: vector(destinations.center(i)),
+            center: *destinations.position(i),
             extent: destinations.class_number(i),
             prior: destinations.priors()[i],
         };

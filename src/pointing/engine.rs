@@ -95,6 +95,23 @@ impl Engine for PointingEngine {
     }
 }
 
+/// The destinations as targets, which hold for every movement among them.
 fn targets(destinations: &Destinations) -> Arc<Targets> {
-    Arc::new(Targets::from(destinations))
+    destinations.kept(|| Targets::from(destinations))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::destination::Destination;
+
+    #[test]
+    fn targets_are_made_once_for_the_same_destinations() {
+        let list = ["a", "b"].map(|id| Destination::new(id, [1.0, 2.0]).size(9.0));
+        let destinations = Destinations::new(&list, 2, 4).unwrap();
+        let found = targets(&destinations);
+        assert!(Arc::ptr_eq(&found, &targets(&destinations)));
+        let learnt = targets(&destinations.with_priors(vec![0.25, 0.75]));
+        assert_eq!((found.priors(), learnt.priors()), (&[1.0, 1.0][..], &[0.25, 0.75][..]));
+    }
 }

@@ -1,6 +1,7 @@
 //! The targets of a movement as flat arrays for the hot loop, by the covariance of their endpoints.
 
 use super::{Symmetric, Vector, dot};
+use crate::math::grouped::Grouped;
 use std::ops::Range;
 use whither_kernel::layout::{FEW, Layout};
 use whither_kernel::mixture::{AXES, Places};
@@ -156,30 +157,26 @@ impl Targets {
 
     /// Those of one extent together; where an extent has few, among others that are alike in being separable.
     fn classify(&mut self) {
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); self.extents.len()];
-        for (&extent, i) in self.extent_of.iter().zip(0..) {
-            members[extent as usize].push(i);
-        }
-        let several = members.iter().filter(|members| !members.is_empty()).count() > 1;
+        let members = Grouped::new(&self.extent_of, self.extents.len());
+        let Self { dimensions, centers, extents, extent_of, classes, layout, .. } = self;
+        let mut place = |members: &[u32], covariance: Option<Symmetric>| {
+            let blocks = layout.place(members, covariance.is_none());
+            if !members.is_empty() {
+                classes.push(Class { covariance, blocks });
+            }
+        };
         let mut pool = Vec::new();
-        for (number, members) in members.iter().enumerate() {
-            let extent = self.extents[number];
-            if several && members.len() < FEW && extent.is_separable() {
-                pool.extend(members);
+        for (number, extent) in extents.iter().enumerate() {
+            let members = members.of(number);
+            let is_one_of_several = members.len() < centers.len();
+            if is_one_of_several && members.len() < FEW && extent.is_separable() {
+                pool.extend_from_slice(members);
             } else {
-                self.place(members, Some(extent.covariance));
+                place(members, Some(extent.covariance));
             }
         }
-        self.place(&pool, None);
-        let Self { dimensions, centers, extents, extent_of, layout, .. } = self;
+        place(&pool, None);
         let variance = |i: usize, axis| extents[extent_of[i] as usize].variance(axis, axis);
         layout.finish((centers.len(), *dimensions), &|i, axis| centers[i][axis], &variance);
-    }
-
-    fn place(&mut self, members: &[u32], covariance: Option<Symmetric>) {
-        let blocks = self.layout.place(members, covariance.is_none());
-        if !members.is_empty() {
-            self.classes.push(Class { covariance, blocks });
-        }
     }
 }

@@ -4,7 +4,6 @@ use super::Predictor;
 use crate::error::{Code, Error, Result};
 use crate::model::destination::{Destination, Destinations};
 use crate::value::quote;
-use std::sync::Arc;
 
 impl Predictor {
     /// Adds a destination at the end, in mid-movement too.
@@ -49,20 +48,14 @@ impl Predictor {
 
     fn replace(&mut self, changed: Destinations) -> Result<()> {
         self.scenario.check_destinations(&changed)?;
-        if self.movement.is_none() {
-            self.destinations = Arc::new(changed);
-            self.apply_habits();
-            self.stale = true;
-            return Ok(());
+        let mut origin = None;
+        if self.movement.is_some() {
+            self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
+            if self.scenario.motion.depends_on_destination() {
+                origin = Some(self.origins(&changed)?);
+            }
         }
-        self.scenario.refuse_accumulating("destinations", "destinations cannot change in mid-movement")?;
-        let origin = if self.scenario.motion.depends_on_destination() { Some(self.origins(&changed)?) } else { None };
-        self.destinations = Arc::new(changed);
-        self.apply_habits();
-        if let Some(movement) = &mut self.movement {
-            movement.engine.replan(&self.destinations, origin.as_deref());
-        }
-        self.stale = true;
+        self.put_in_force(changed, origin.as_deref());
         Ok(())
     }
 

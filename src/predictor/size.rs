@@ -9,24 +9,22 @@ impl Predictor {
     /// each arrival time of a class of destinations, those that a movement keeps, those that a snapshot has.
     pub(crate) fn sizes(&self) -> [f64; 6] {
         let [pairs, nodes, kept, saved] = self.numbers();
-        let ids: usize = self.ids().map(str::len).sum();
-        [self.len() as f64, ids as f64, pairs, nodes, kept, saved]
+        [self.len() as f64, self.destinations.ids_length() as f64, pairs, nodes, kept, saved]
     }
 
     fn numbers(&self) -> [f64; 4] {
         let (scenario, destinations) = (&self.scenario, &self.destinations);
         let Setup::Papers { method, arrival, quadrature, .. } = &scenario.setup else { return [0.0; 4] };
-        let prior = |class: usize| destinations.classes()[class].arrival().unwrap_or(arrival);
-        let points = |class: usize| prior(class).points(quadrature) as f64;
-        let mut pairs = 0.0;
-        let mut nodes: f64 = (0..destinations.classes().len()).map(points).sum();
-        for class in (0..destinations.len()).map(|i| destinations.class_number(i)) {
-            pairs += points(class);
-            nodes += if prior(class).needs_distance() { points(class) } else { 0.0 };
+        let (mut pairs, mut nodes) = (0, 0);
+        for (class, count) in destinations.classes().iter().zip(destinations.class_sizes()) {
+            let prior = class.arrival().unwrap_or(arrival);
+            let points = prior.points(quadrature);
+            pairs += count * points;
+            nodes += points + if prior.needs_distance() { count * points } else { 0 };
         }
         let candidates = scenario.motion.candidates.len() as f64;
         let states = scenario.motion.states() as f64;
-        let (pairs, nodes) = (pairs * candidates, nodes * candidates);
+        let (pairs, nodes) = (pairs as f64 * candidates, nodes as f64 * candidates);
         let apart = scenario.motion.depends_on_destination();
         let columns = if apart { 2.0 * states * destinations.len() as f64 * candidates } else { 0.0 };
         let table = match method {

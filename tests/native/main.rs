@@ -14,6 +14,7 @@ mod habits;
 mod identities;
 mod imports;
 mod life;
+mod movements;
 mod numerics;
 mod pointing;
 mod pointing_times;

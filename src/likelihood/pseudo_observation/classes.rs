@@ -1,11 +1,17 @@
 //! The destinations as flat arrays, by class: those that share their arrival nodes and the covariance of their endpoint.
 
 use super::pruning::{BoundingBox, MANY, arrange, bounding_boxes};
+use crate::likelihood::configuration::Configuration;
 use crate::likelihood::plan::Plan;
+use crate::math::quadrature::Quadrature;
+use crate::math::radix_sort::radix_sort;
+use crate::model::arrival::Arrival;
 use crate::model::destination::Destinations;
 use fnv::FnvHashMap;
 use nalgebra::DMatrix;
+use std::array::from_fn;
 use std::ops::Range;
+use std::sync::{Arc, OnceLock};
 use whither_kernel::axes::MOST;
 use whither_kernel::endpoints::AxisEndpoint;
 use whither_kernel::layout::{FEW, Layout};
@@ -13,7 +19,7 @@ use whither_kernel::mixture::AXES;
 use whither_kernel::vectors::{Block, WIDTH};
 
 /// The sum of the weights, as a power of two of the shift, must lie in here: then what is cut off at 960 is negligible.
-pub const IN_RANGE: std::ops::Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
+pub const IN_RANGE: Range<f64> = 8.673_617_379_884_035e-19..1.152_921_504_606_847e18;
 
 /// Arrival nodes of a class.
 #[derive(Clone, Debug)]
@@ -61,9 +67,9 @@ pub struct ClassEndpoint {
 }
 
 impl ClassEndpoint {
-    fn new(rest: &[f64], covariance: &DMatrix<f64>, d: usize, separable: bool) -> Self {
+    fn new(rest: Vec<f64>, mut covariance: DMatrix<f64>, d: usize, separable: bool) -> Self {
         if !separable {
-            return Self { rest: rest.to_vec(), covariance: covariance.clone(), axes: None };
+            return Self { rest, covariance, axes: None };
         }
         let length = d + rest.len();
         let mut axes = [AxisEndpoint::default(); MOST];
@@ -83,11 +89,10 @@ impl ClassEndpoint {
         for k in 0..d {
             axes[k].alike = axes[k].length == axes[0].length && axes[k].covariance == axes[0].covariance;
         }
-        let mut covariance = covariance.clone();
         for i in 0..d {
             covariance[(i, i)] = 0.0;
         }
-        Self { rest: rest.to_vec(), covariance, axes: Some(axes) }
+        Self { rest, covariance, axes: Some(axes) }
     }
 
     fn key(&self) -> Vec<u64> {
@@ -132,20 +137,54 @@ pub struct Classes {
     pub layout: Layout,
 }
 
+/// Destinations of one size, endpoint and nodes.
 struct Draft {
+    /// Which nodes and endpoint, a number of its own for each pair of them.
+    family: usize,
+    nodes: usize,
+    endpoint: usize,
     size: [f64; MOST],
-    members: Vec<u32>,
+    /// The destinations, as places in a list of all.
+    members: Range<usize>,
+}
+
+/// The classes for all movements among the same destinations, of joint axes and of separate ones, each made for the first movement
+/// that needs them.
+type KeptClasses = [OnceLock<ClassesFor>; 2];
+
+/// Classes, with what they depend on besides the destinations.
+#[derive(Debug)]
+struct ClassesFor {
+    arrival: Arrival,
+    quadrature: Quadrature,
+    classes: Arc<Classes>,
 }
 
 impl Classes {
+    /// The classes for a movement among `destinations`, which are kept with them unless the nodes depend on where it begins.
+    /// `separable` as in [`Classes::new`].
+    pub fn of(destinations: &Destinations, configuration: &Configuration, separable: bool) -> Arc<Self> {
+        let Configuration { arrival, quadrature, .. } = configuration;
+        let [joint, separate] = &*destinations.kept(KeptClasses::default);
+        let place = if separable { separate } else { joint };
+        let holds = |kept: &&ClassesFor| kept.arrival == *arrival && kept.quadrature == *quadrature;
+        if let Some(kept) = place.get().filter(holds) {
+            return Arc::clone(&kept.classes);
+        }
+        let plan = configuration.plan(destinations);
+        let classes = Arc::new(Self::new(destinations, &plan, separable));
+        if !plan.depends_on_start {
+            let (arrival, quadrature) = (arrival.clone(), quadrature.clone());
+            // without effect where those for another scenario are kept
+            let _ = place.set(ClassesFor { arrival, quadrature, classes: Arc::clone(&classes) });
+        }
+        classes
+    }
+
     /// The classes of `destinations` with the nodes of `plan`. `separable` is whether axes are to be taken separately, which
     /// they cannot be where some endpoint mixes them.
-    pub fn new(destinations: &Destinations, plan: &Plan, separable: bool) -> Self {
+    fn new(destinations: &Destinations, plan: &Plan, separable: bool) -> Self {
         let d = destinations.dimensions();
-        let mixes = |covariance: &DMatrix<f64>| {
-            let n = covariance.nrows();
-            (0..n).any(|i| (0..i).any(|j| i % d != j % d && covariance[(i, j)] != 0.0))
-        };
         let nodes = plan.grids.iter().enumerate().map(|(grid, nodes)| Nodes {
             times: nodes.times.clone(),
             weights: nodes.log_weights.iter().map(|w| w.exp()).collect(),
@@ -154,7 +193,7 @@ impl Classes {
         });
         let mut classes = Self {
             dimensions: d,
-            separable: separable && !destinations.classes().iter().any(|class| mixes(&class.covariance())),
+            separable: separable && !destinations.classes().iter().any(|class| class.mixes_axes(d)),
             nodes: nodes.collect(),
             endpoints: Vec::new(),
             classes: Vec::new(),
@@ -162,24 +201,31 @@ impl Classes {
             total: destinations.priors().iter().sum(),
             layout: Layout::default(),
         };
-        for ((nodes, endpoint), drafts) in classes.drafts(destinations, plan) {
-            let many = classes.separable && drafts.len() > 1;
+        let mut order = plan.members.members().to_vec();
+        let drafts = classes.drafts(destinations, plan, &mut order);
+        let mut families: Vec<(u64, u32)> = drafts.iter().map(|draft| draft.family as u64).zip(0..).collect();
+        radix_sort(&mut families);
+        for family in families.chunk_by(|one, other| one.0 == other.0) {
+            let many = classes.separable && family.len() > 1;
             let mut pool = Vec::new();
-            for mut draft in drafts {
-                if many && draft.members.len() < FEW {
-                    pool.extend(draft.members);
+            for draft in family.iter().map(|(_, draft)| &drafts[*draft as usize]) {
+                let members = &mut order[draft.members.clone()];
+                if many && members.len() < FEW {
+                    pool.extend_from_slice(members);
                 } else {
-                    if classes.separable && draft.members.len() >= MANY {
-                        arrange(destinations, &mut draft.members);
+                    if classes.separable && members.len() >= MANY {
+                        arrange(destinations, members);
                     }
-                    classes.place(&draft.members, (nodes, endpoint, Some(draft.size)));
+                    classes.place(members, draft, Some(draft.size));
                 }
             }
-            classes.place(&pool, (nodes, endpoint, None));
+            if let Some((_, draft)) = family.first() {
+                classes.place(&pool, &drafts[*draft as usize], None);
+            }
         }
-        classes.layout.finish((destinations.len(), d), &|i, axis| destinations.center(i)[axis], &|i, axis| {
-            destinations.class(i).variance(axis, axis)
-        });
+        let coordinate = |i: usize, axis: usize| destinations.position(i)[axis];
+        let variance = |i: usize, axis| destinations.class(i).variance(axis, axis);
+        classes.layout.finish((destinations.len(), d), &coordinate, &variance);
         classes.gather_priors(destinations);
         if classes.separable {
             let mut all = std::mem::take(&mut classes.classes);
@@ -204,44 +250,143 @@ impl Classes {
         self.priors = self.layout.gather(&|i, is_member| if is_member { priors[i] / total } else { 0.0 });
     }
 
-    /// By nodes and endpoint, those of one size together.
-    fn drafts(&mut self, destinations: &Destinations, plan: &Plan) -> Vec<((usize, usize), Vec<Draft>)> {
-        let (mut known_endpoints, mut known) = (FnvHashMap::default(), FnvHashMap::default());
-        let mut all: Vec<((usize, usize), Vec<Draft>)> = Vec::new();
-        for group in &plan.groups {
-            let covariance = &destinations.classes()[group.class].covariance();
-            let mut members: Vec<(usize, Draft)> = Vec::new();
-            let mut here = FnvHashMap::default();
-            for &i in &group.members {
-                let rest = destinations.rest(i as usize);
-                let key: Vec<u64> = rest.iter().map(|x| x.to_bits()).collect();
-                let draft = *here.entry(key).or_insert(members.len());
-                if draft == members.len() {
-                    let endpoint = ClassEndpoint::new(&rest, covariance, self.dimensions, self.separable);
-                    let number = *known_endpoints.entry(endpoint.key()).or_insert(self.endpoints.len());
-                    if number == self.endpoints.len() {
-                        self.endpoints.push(endpoint);
-                    }
-                    let size = std::array::from_fn(|k| if k < self.dimensions { covariance[(k, k)] } else { 0.0 });
-                    members.push((number, Draft { size, members: Vec::new() }));
-                }
-                members[draft].1.members.push(i);
+    /// Those of one size, endpoint and nodes together; `order` has the members of the plan, and afterwards theirs.
+    fn drafts(&mut self, destinations: &Destinations, plan: &Plan, order: &mut [u32]) -> Vec<Draft> {
+        let (mut endpoints, mut families) = (Numbers::default(), Numbers::default());
+        let mut drafts: Vec<Draft> = Vec::with_capacity(plan.groups.len());
+        let mut class_before = None;
+        for (g, group) in plan.groups.iter().enumerate() {
+            let class = &destinations.classes()[group.class];
+            let mut start = plan.members.range(g).start;
+            let members = &mut order[plan.members.range(g)];
+            // a box has its centre alone
+            let is_box = class.size().is_some();
+            if !is_box {
+                bring_together(destinations, members);
             }
-            for (endpoint, draft) in members {
-                let place = *known.entry((group.grid, endpoint)).or_insert(all.len());
-                if place == all.len() {
-                    all.push(((group.grid, endpoint), Vec::new()));
-                }
-                all[place].1.push(draft);
+            for part in members.chunk_by(|&i, &j| is_box || rest_bits(destinations, i).eq(rest_bits(destinations, j))) {
+                // most are like the one before, which is sooner compared than looked up
+                let is_resized = self.separable && class_before.is_some_and(|before| class.is_resized(before));
+                let endpoint = match drafts.last() {
+                    Some(before) if is_resized => before.endpoint,
+                    _ => self.endpoint(destinations, part[0] as usize, &mut endpoints),
+                };
+                let family = match drafts.last() {
+                    Some(before) if (before.nodes, before.endpoint) == (group.grid, endpoint) => before.family,
+                    _ => number(vec![group.grid as u64, endpoint as u64], &mut families),
+                };
+                let size = from_fn(|k| if k < self.dimensions { class.variance(k, k) } else { 0.0 });
+                let end = start + part.len();
+                drafts.push(Draft { family, nodes: group.grid, endpoint, size, members: start..end });
+                (class_before, start) = (Some(class), end);
             }
         }
-        all
+        drafts
     }
 
-    fn place(&mut self, members: &[u32], (nodes, endpoint, size): (usize, usize, Option<[f64; MOST]>)) {
+    /// The number of the endpoint of destination `i`, by all its numbers, bit by bit.
+    fn endpoint(&mut self, destinations: &Destinations, i: usize, known: &mut Numbers) -> usize {
+        let class = destinations.class(i);
+        let mut rest = destinations.rest(i).to_vec();
+        rest.resize(class.length() - self.dimensions, 0.0);
+        let endpoint = ClassEndpoint::new(rest, class.covariance(), self.dimensions, self.separable);
+        let number = number(endpoint.key(), known);
+        if number == self.endpoints.len() {
+            self.endpoints.push(endpoint);
+        }
+        number
+    }
+
+    fn place(&mut self, members: &[u32], draft: &Draft, size: Option<[f64; MOST]>) {
         let blocks = self.layout.place(members, size.is_none());
         if !members.is_empty() {
+            let Draft { nodes, endpoint, .. } = *draft;
             self.classes.push(Class { nodes, endpoint, size, blocks, boxes: Vec::new() });
         }
+    }
+}
+
+fn rest_bits(destinations: &Destinations, i: u32) -> impl Iterator<Item = u64> {
+    destinations.rest(i as usize).iter().map(|x| x.to_bits())
+}
+
+/// Puts those together whose endpoints have the same mean after the position, in the order of the first of each.
+fn bring_together(destinations: &Destinations, members: &mut [u32]) {
+    let mut known = Numbers::default();
+    let number = |&i: &u32| (number(rest_bits(destinations, i).collect(), &mut known) as u64, i);
+    let mut numbered: Vec<(u64, u32)> = members.iter().map(number).collect();
+    radix_sort(&mut numbered);
+    members.iter_mut().zip(numbered).for_each(|(member, (_, i))| *member = i);
+}
+
+/// The numbers of keys, in the order in which they came.
+type Numbers = FnvHashMap<Vec<u64>, usize>;
+
+fn number(key: Vec<u64>, known: &mut Numbers) -> usize {
+    let count = known.len();
+    *known.entry(key).or_insert(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scenario;
+    use crate::likelihood::Method;
+    use crate::scenario::Setup;
+    use serde_json::{Value as Json, json};
+
+    fn scenario(arrival: &Json) -> Scenario {
+        let place =
+            |i: usize| json!({ "id": format!("d{i}"), "center": [100 * i], "size": 10 + i % 2, "prior": 1 + i });
+        let json = json!({
+            "motion": { "type": "constantVelocity", "dimensions": 1, "noise": 90 }, "observation": { "noise": 1 },
+            "arrival": arrival, "quadrature": { "points": 3 }, "destinations": (0..20).map(place).collect::<Vec<_>>(),
+        });
+        serde_json::from_value(json).unwrap()
+    }
+
+    fn configuration(scenario: &Scenario, start: f64) -> Configuration {
+        let Setup::Papers { arrival, quadrature, .. } = &scenario.setup else { panic!() };
+        Configuration {
+            motion: scenario.motion.clone(),
+            method: Method::PseudoObservation,
+            arrival: arrival.clone(),
+            quadrature: quadrature.clone(),
+            observes_position: true,
+            first_counts: false,
+            start: vec![start],
+        }
+    }
+
+    #[test]
+    fn what_no_movement_changes_is_made_once() {
+        let scenario = scenario(&json!({ "type": "uniform", "from": 1, "to": 2 }));
+        let (here, there) = (configuration(&scenario, 0.0), configuration(&scenario, 500.0));
+        let destinations = &*scenario.destinations;
+        let separate = Classes::of(destinations, &here, true);
+        let joint = Classes::of(destinations, &here, false);
+        assert!(separate.separable && !joint.separable);
+        assert!(Arc::ptr_eq(&separate, &Classes::of(destinations, &there, true)));
+        assert!(Arc::ptr_eq(&joint, &Classes::of(destinations, &there, false)));
+        let learnt = destinations.clone().with_priors(vec![0.5; 20]);
+        let others = Classes::of(&learnt, &here, true);
+        assert_ne!(others.priors, separate.priors);
+        assert!(Arc::ptr_eq(&separate, &Classes::of(destinations, &here, true)));
+    }
+
+    #[test]
+    fn the_nodes_of_another_scenario_or_start_are_its_own() {
+        let uniform = scenario(&json!({ "type": "uniform", "from": 1, "to": 2 }));
+        let destinations = &*uniform.destinations;
+        let times =
+            |configuration: &Configuration| Classes::of(destinations, configuration, true).nodes[0].times.clone();
+        assert_eq!(times(&configuration(&uniform, 0.0)), [1.0, 1.5, 2.0]);
+        let later = scenario(&json!({ "type": "horizon", "from": 3, "to": 5 }));
+        assert_eq!(times(&configuration(&later, 0.0)), [3.0, 4.0, 5.0]);
+        let fitts = scenario(&json!({ "type": "fitts", "intercept": 0.2, "slope": 0.1, "spread": 0.3 }));
+        let median = |start: f64| times(&configuration(&fitts, start))[1];
+        assert!((median(0.0) - 0.2).abs() < 1e-12, "no distance, no difficulty");
+        assert!((median(70.0) - 0.5).abs() < 1e-12, "three bits");
+        assert_eq!(times(&configuration(&uniform, 0.0)), [1.0, 1.5, 2.0]);
     }
 }

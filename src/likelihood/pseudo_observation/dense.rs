@@ -48,7 +48,7 @@ impl Likelihood for Dense {
             else {
                 continue;
             };
-            for &i in &node.group.members {
+            for &i in node.members {
                 let i = i as usize;
                 table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i)
                     + from_now.log_density(&scene.endpoint_error(i, &now, &scene.filter.mean(i)))

@@ -136,9 +136,8 @@ impl Engine for PseudoObservation {
     }
 
     fn replan(&mut self, destinations: &Arc<Destinations>, _origin: Option<&[usize]>) {
-        let (configuration, plan) = (&self.configuration, self.configuration.plan(destinations));
-        let is_alive = plan.is_alive(self.filters.now.elapsed());
-        self.filters.replan(is_alive, |filters| filters.replan(configuration, destinations, &plan));
+        let replan = |filters: &mut Telescoped| filters.replan(&self.configuration, destinations);
+        self.filters.replan(replan, |filters| filters.is_alive(filters.elapsed()));
         self.destinations = Arc::clone(destinations);
         self.dense = None;
     }

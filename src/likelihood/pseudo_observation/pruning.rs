@@ -5,6 +5,7 @@
 //! weights. A part whose bound is negligible against the sum is not evaluated, and its probabilities are zero: all that is left
 //! out is less than 1e-14 of the sum.
 
+use crate::math::radix_sort::radix_sort;
 use crate::model::destination::Destinations;
 use std::ops::Range;
 use whither_kernel::mixture::{AXES, Ball, Ellipsoid, Places};
@@ -30,22 +31,32 @@ pub struct BoundingBox {
 }
 
 fn edges(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for x in numbers {
+        // without the library's rules for what is no number, which take a call in WebAssembly
+        low = if x < low { x } else { low };
+        high = if x > high { x } else { high };
+    }
+    (low, high)
 }
 
 /// The order of many destinations: along a curve that fills the space, the bits of their coordinates in turns.
 pub fn arrange(destinations: &Destinations, members: &mut [u32]) {
     let d = destinations.dimensions();
+    // the bits of each byte, as far apart as a bit of every axis takes
+    let apart = |byte: u64| (0..8).map(|bit| (byte >> bit & 1) << (bit * d)).sum();
+    let apart: Vec<u64> = (0..256).map(apart).collect();
     let mut places: Vec<(u64, u32)> = members.iter().map(|&i| (0, i)).collect();
     for axis in 0..d {
-        let centers: Vec<f64> = members.iter().map(|&i| destinations.center(i as usize)[axis]).collect();
-        let (low, high) = edges(centers.iter().copied());
-        for ((place, _), center) in places.iter_mut().zip(centers) {
-            let share = ((center - low) / (high - low) * 65_535.0) as u64;
-            *place |= (0..16).map(|bit| (share >> bit & 1) << (bit * d + axis)).sum::<u64>();
+        let center = |i: u32| destinations.position(i as usize)[axis];
+        let (low, high) = edges(members.iter().map(|&i| center(i)));
+        let scale = high - low;
+        for (place, i) in &mut places {
+            let share = ((center(*i) - low) / scale * 65_535.0) as usize;
+            *place |= (apart[share % 256] | apart[share / 256] << (8 * d)) << axis;
         }
     }
-    places.sort_unstable();
+    radix_sort(&mut places);
     members.iter_mut().zip(places).for_each(|(member, (_, i))| *member = i);
 }
 

@@ -10,7 +10,6 @@ use crate::engine::Observed;
 use crate::error::Result;
 use crate::likelihood::configuration::Configuration;
 use crate::likelihood::filter_bank::{FilterBank, advance_filter};
-use crate::likelihood::plan::Plan;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Filter;
 use crate::model::destination::Destinations;
@@ -47,20 +46,14 @@ impl Telescoped {
     pub fn begin(configuration: &Configuration, destinations: &Destinations, first: &Gaussian) -> Self {
         let filter = Filter::new(first, 1);
         let filters = vec![&filter; configuration.motion.candidates.len()];
-        Self::new(configuration, destinations, &configuration.plan(destinations), first, &filters)
+        Self::new(configuration, destinations, first, &filters)
     }
 
-    fn new(
-        configuration: &Configuration,
-        destinations: &Destinations,
-        plan: &Plan,
-        first: &Gaussian,
-        filters: &[&Filter],
-    ) -> Self {
+    fn new(configuration: &Configuration, destinations: &Destinations, first: &Gaussian, filters: &[&Filter]) -> Self {
         let each = || configuration.motion.candidates.iter().zip(filters);
         let axes = each().map(|(candidate, filter)| axes_of(candidate.model.as_ref(), first, filter)).collect();
         let axes: Option<Vec<_>> = if configuration.observes_position { axes } else { None };
-        let classes = Arc::new(Classes::new(destinations, plan, axes.is_some()));
+        let classes = Classes::of(destinations, configuration, axes.is_some());
         let mut axes = axes.filter(|_| classes.separable).unwrap_or_default().into_iter();
         let candidates = each().map(|(candidate, filter)| Candidate {
             model: Arc::clone(&candidate.model),
@@ -129,7 +122,7 @@ impl Telescoped {
             }
         } else {
             if self.is_separable() {
-                self.couple(destinations, &configuration.plan(destinations));
+                self.couple(configuration, destinations);
             }
             let measurement = observed.measurement()?;
             let advance = |candidate: &Candidate| match &candidate.source {
@@ -183,36 +176,36 @@ impl Telescoped {
             observations: bank.observations,
             shift: shifts[0],
             next_shift: shifts[1],
-            ..Self::new(configuration, destinations, &bank.plan, &bank.first, &filters)
+            ..Self::new(configuration, destinations, &bank.first, &filters)
         })
     }
 
     /// Other destinations, in mid-movement: axes that had to be taken together for those before may not have to for these.
-    pub fn replan(&mut self, configuration: &Configuration, destinations: &Destinations, plan: &Plan) {
+    pub fn replan(&mut self, configuration: &Configuration, destinations: &Destinations) {
         if configuration.observes_position && !self.is_separable() {
-            self.separate(destinations, plan);
+            self.separate(configuration, destinations);
         }
-        self.place(destinations, plan);
+        self.place(configuration, destinations);
     }
 
     /// From now on the axes are taken together. Every candidate is separable, or none is.
-    fn couple(&mut self, destinations: &Destinations, plan: &Plan) {
+    fn couple(&mut self, configuration: &Configuration, destinations: &Destinations) {
         for candidate in &mut self.candidates {
             if let Source::Separable { first, now } = &candidate.source {
                 candidate.source = Source::Coupled(Box::new(coupled_of(first, now)));
             }
         }
-        self.place(destinations, plan);
+        self.place(configuration, destinations);
     }
 
     /// From now on each axis on its own, if that can be.
-    fn separate(&mut self, destinations: &Destinations, plan: &Plan) {
+    fn separate(&mut self, configuration: &Configuration, destinations: &Destinations) {
         let axes = self.candidates.iter().map(|candidate| match &candidate.source {
             Source::Coupled(coupled) => axes_of(candidate.model.as_ref(), &coupled.first, &coupled.filter),
             Source::Separable { first, now } => Some((*first, *now)),
         });
         let Some(axes) = axes.collect::<Option<Vec<_>>>() else { return };
-        if !Classes::new(destinations, plan, true).separable {
+        if !Classes::of(destinations, configuration, true).separable {
             return;
         }
         for (candidate, (first, now)) in self.candidates.iter_mut().zip(axes) {
@@ -220,11 +213,11 @@ impl Telescoped {
         }
     }
 
-    fn place(&mut self, destinations: &Destinations, plan: &Plan) {
+    fn place(&mut self, configuration: &Configuration, destinations: &Destinations) {
         self.shift = self.next_shift;
-        self.classes = Arc::new(Classes::new(destinations, plan, self.is_separable()));
+        self.classes = Classes::of(destinations, configuration, self.is_separable());
         if self.is_separable() && !self.classes.separable {
-            return self.couple(destinations, plan);
+            return self.couple(configuration, destinations);
         }
         for candidate in &mut self.candidates {
             candidate.tables = Tables::default();

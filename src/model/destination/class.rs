@@ -59,6 +59,25 @@ impl EndpointClass {
         }
     }
 
+    /// Whether both are boxes that differ in their sizes alone, as far as the endpoint goes.
+    #[must_use]
+    pub fn is_resized(&self, other: &Self) -> bool {
+        let (Shape::Box { end_velocity: one, .. }, Shape::Box { end_velocity: another, .. }) =
+            (&self.shape, &other.shape)
+        else {
+            return false;
+        };
+        one == another
+    }
+
+    /// Whether the endpoint's axes depend on each other.
+    #[must_use]
+    pub fn mixes_axes(&self, dimensions: usize) -> bool {
+        let Shape::Gaussian(covariance) = &self.shape else { return false };
+        let n = covariance.nrows();
+        (0..n).any(|i| (0..i).any(|j| i % dimensions != j % dimensions && covariance[(i, j)] != 0.0))
+    }
+
     /// The endpoint's covariance `S_i`, `l` by `l`.
     #[must_use]
     pub fn covariance(&self) -> DMatrix<f64> {

@@ -1,11 +1,15 @@
 //! The destinations of a predictor: found by their ids, and by the classes that share their matrices.
 
 use super::class::Fingerprint;
+use super::kept::Kept;
 use super::{Destination, Endpoint, EndpointClass};
 use crate::error::{Code, Error, Result};
 use crate::value::{Path, Value, number, quote};
 use fnv::FnvHashMap;
+use std::any::Any;
 use std::ops::Range;
+use std::sync::Arc;
+use whither_kernel::mixture::AXES;
 
 /// More destinations than this are an error, so that no input can exhaust the memory.
 pub const MOST_DESTINATIONS: usize = 1_000_000;
@@ -21,6 +25,8 @@ pub struct Destinations {
     classes: Vec<EndpointClass>,
     /// The prior weights in force: those that were given, or learnt.
     priors: Vec<f64>,
+    /// What an engine has computed from all of this.
+    kept: Kept,
 }
 
 impl Destinations {
@@ -44,6 +50,7 @@ impl Destinations {
             endpoints: Vec::with_capacity(count),
             classes: Vec::new(),
             priors: Vec::with_capacity(count),
+            kept: Kept::default(),
         };
         let mut classes: FnvHashMap<Fingerprint, usize> = FnvHashMap::default();
         for (i, destination) in list.iter().enumerate() {
@@ -190,6 +197,12 @@ impl Destinations {
         self.ids.get(self.id_range(i)).unwrap_or_default()
     }
 
+    /// How many bytes all ids have together.
+    #[must_use]
+    pub const fn ids_length(&self) -> usize {
+        self.ids.len()
+    }
+
     fn id_range(&self, i: usize) -> Range<usize> {
         let start = if i == 0 { 0 } else { self.endpoints[i - 1].id_end };
         start..self.endpoints[i].id_end
@@ -226,13 +239,16 @@ impl Destinations {
         &self.endpoints[i].center[..self.dimensions]
     }
 
-    /// The components of the endpoint's mean after the first `d`.
+    /// The centre; components beyond the dimensions are zero.
     #[must_use]
-    pub fn rest(&self, i: usize) -> Vec<f64> {
-        match &*self.endpoints[i].rest {
-            [] => vec![0.0; self.class(i).length() - self.dimensions],
-            rest => rest.to_vec(),
-        }
+    pub fn position(&self, i: usize) -> &[f64; AXES] {
+        &self.endpoints[i].center
+    }
+
+    /// The components of the endpoint's mean after the first `d`; none where all are zero.
+    #[must_use]
+    pub fn rest(&self, i: usize) -> &[f64] {
+        &self.endpoints[i].rest
     }
 
     /// The endpoint's mean `a_i`, of length `l`.
@@ -257,9 +273,17 @@ impl Destinations {
         self.endpoints.iter().map(|endpoint| endpoint.prior)
     }
 
-    /// Puts learnt priors in force, one for each destination, until the destinations change.
-    pub fn learn(&mut self, priors: Vec<f64>) {
-        self.priors = priors;
+    /// The same with learnt priors in force, one for each destination.
+    #[must_use]
+    pub fn with_priors(self, priors: Vec<f64>) -> Self {
+        Self { priors, kept: Kept::default(), ..self }
+    }
+
+    /// What an engine computes from these destinations alone: `make` is called for the first of those who ask, and the value is
+    /// kept. All who ask have to ask for the same.
+    #[must_use]
+    pub fn kept<T: Any + Send + Sync>(&self, make: impl Fn() -> T) -> Arc<T> {
+        self.kept.get(make)
     }
 
     /// The class of destination `i`.
@@ -278,6 +302,14 @@ impl Destinations {
     #[must_use]
     pub fn classes(&self) -> &[EndpointClass] {
         &self.classes
+    }
+
+    /// How many destinations each class has.
+    #[must_use]
+    pub fn class_sizes(&self) -> Vec<usize> {
+        let mut sizes = vec![0; self.classes.len()];
+        self.endpoints.iter().for_each(|endpoint| sizes[endpoint.class as usize] += 1);
+        sizes
     }
 
     /// The description of destination `i`.
