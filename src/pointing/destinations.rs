@@ -20,8 +20,6 @@ impl From<&Destinations> for Targets {
 fn extent(class: &EndpointClass, dimensions: usize) -> Extent {
     let at = |r: usize, c: usize| if r < dimensions { class.variance(r, c) } else { 0.0 };
     let side = |axis: usize| if axis < dimensions { class.side(axis) } else { 0.0 };
-    Extent {
-        covariance: [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)],
-        sides: [side(0), side(1), side(2)],
-    }
+    let covariance = [at(0, 0), at(1, 0), at(1, 1), at(2, 0), at(2, 1), at(2, 2)];
+    Extent::new(covariance, [side(0), side(1), side(2)], dimensions)
 }

@@ -61,13 +61,13 @@ mod tests {
     fn near_is_told_from_the_edge_of_the_box() {
         let entry =
             EntryTime { offset: 0.0, nodes: 1.0, near: -1.0, distance: 20.0, elapsed: 0.0, low: -1.0, high: 1.0 };
-        let wide = Extent::of_box([300.0, 24.0, 0.0]);
+        let wide = Extent::of_box([300.0, 24.0]);
         let near = |x: f64, y: f64| entry.nearness(&[x, y, 0.0], &wide, 2);
         assert!((near(170.0, 0.0) - 0.5).abs() < 1e-12, "20 from its right edge");
         assert!((near(0.0, -32.0) - 0.5).abs() < 1e-12, "20 above its upper edge");
         assert_eq!([near(149.0, 0.0), near(0.0, 0.0)], [1.0, 1.0], "in it");
         // 12 on a side, 50 from the centre, so 44 from the edge
-        let square = Extent::of_box([12.0, 12.0, 0.0]);
+        let square = Extent::of_box([12.0, 12.0]);
         assert!((entry.nearness(&[30.0, 40.0, 0.0], &square, 2) - 20.0 / (20.0 + 44.0)).abs() < 1e-12);
     }
 }

@@ -18,14 +18,12 @@ pub fn log_start(start: &Start, offset: &Vector, onset: &Onset) -> f64 {
 #[must_use]
 pub fn log_near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     let mut distance = 0.0;
-    let mut volume = 1.0;
-    for (j, component) in offset.iter().enumerate().take(dimensions) {
-        let side = extent.sides[j];
-        distance += (component / side).powi(2);
-        volume *= side;
+    for (component, side) in offset.iter().zip(&extent.sides).take(dimensions) {
+        let share = component / side;
+        distance += share * share;
     }
-    // One unit of length, so that a target right under the start keeps a chance.
-    distance += (-2.0 / dimensions as f64 * volume.ln()).exp();
+    // a target right under the start keeps a chance
+    distance += extent.square_of_unit;
     (distance / (distance + near * near)).ln()
 }
 

@@ -162,10 +162,15 @@ impl<S: Space> Pointing<S> {
         self.log_likelihoods(into);
         let priors = self.targets.priors();
         let total: f64 = priors.iter().sum();
-        for (i, (value, prior)) in into.iter_mut().zip(priors).enumerate() {
+        // most are the same as the one before
+        let (mut known, mut log_prior) = (f64::NAN, f64::NAN);
+        for (i, (value, &prior)) in into.iter_mut().zip(priors).enumerate() {
             let offset = minus(&self.targets.center(i), &self.course.start);
             let near = log_near(self.parameters.near, &offset, self.targets.extent(i), d);
-            *value += onset.share * near + (prior / total).ln();
+            if prior != known {
+                (known, log_prior) = (prior, (prior / total).ln());
+            }
+            *value += onset.share * near + log_prior;
         }
         share(into)
     }

@@ -13,15 +13,23 @@ pub struct Extent {
     pub covariance: Symmetric,
     /// The sides of the box over which a uniform density has these variances; zero in axes beyond the dimensions.
     pub sides: Vector,
+    /// The square of a unit of length, the sides' geometric mean being one.
+    pub square_of_unit: f64,
 }
 
 impl Extent {
-    /// A uniform density over a box with these sides: variances of `side^2 / 12`.
+    /// From the covariance, and the sides in so many dimensions.
+    #[must_use]
+    pub fn new(covariance: Symmetric, sides: Vector, dimensions: usize) -> Self {
+        let volume: f64 = sides.iter().take(dimensions).product();
+        Self { covariance, sides, square_of_unit: (-2.0 / dimensions as f64 * volume.ln()).exp() }
+    }
+
+    /// A uniform density over a box on a screen: variances of `side^2 / 12`.
     #[cfg(any(test, feature = "wasm-pointing"))]
     #[must_use]
-    pub fn of_box(sides: Vector) -> Self {
-        let [x, y, z] = sides;
-        Self { covariance: [x * x / 12.0, 0.0, y * y / 12.0, 0.0, 0.0, z * z / 12.0], sides }
+    pub fn of_box([x, y]: [f64; 2]) -> Self {
+        Self::new([x * x / 12.0, 0.0, y * y / 12.0, 0.0, 0.0, 0.0], [x, y, 0.0], 2)
     }
 
     /// One entry of the covariance.

@@ -255,7 +255,7 @@ impl Constants {
 }
 
 fn read_targets(sides: &[f64], targets: &[f64]) -> Arc<Targets> {
-    let extents = sides.as_chunks().0.iter().map(|&[width, height]| Extent::of_box([width, height, 0.0]));
+    let extents = sides.as_chunks().0.iter().map(|&sides| Extent::of_box(sides));
     let list = targets.as_chunks().0.iter().map(|&[x, y, size, prior]| Target {
         center: [x, y, 0.0],
         extent: size as usize,
