@@ -59,7 +59,7 @@ fn stacked(sequence: &ConditionallyMarkovSequence) -> Gaussian {
     let pinned = &sequence.model.pinned;
     let size = (n + 1) * s;
     let noises = pinned.mean.len() + size;
-    let root = Factor::new(pinned.covariance.clone()).unwrap().root();
+    let root = Factor::new(pinned.covariance.clone()).unwrap().into_root();
     let (mut mean, mut map) = (DVector::zeros(size), DMatrix::zeros(size, noises));
     for (i, &pin) in sequence.pins().iter().enumerate() {
         mean.rows_mut(pin * s, s).copy_from(&pinned.mean.rows(i * s, s));
@@ -73,7 +73,7 @@ fn stacked(sequence: &ConditionallyMarkovSequence) -> Gaussian {
                 + &step.offset;
             mean.rows_mut(k * s, s).copy_from(&state);
             let mut from = &step.previous * map.rows((k - 1) * s, s) + &step.destination * map.rows(pair[1] * s, s);
-            let noise = Factor::new(step.covariance).unwrap().root();
+            let noise = Factor::new(step.covariance).unwrap().into_root();
             from.view_mut((0, pinned.mean.len() + k * s), (s, s)).copy_from(&noise);
             map.rows_mut(k * s, s).copy_from(&from);
         }

@@ -54,7 +54,7 @@ impl Likelihood for Algorithm1 {
                 let i = i as usize;
                 let mut mean = step.predicted.mean(i);
                 mean.gemv(1.0, &conditioned.gain, &scene.endpoint_error(i, &endpoint, &mean), 1.0);
-                self.table[scene.plan.rows[i] + node.index] += density.log_density(&step.measurement.error(&mean));
+                self.table[scene.plan.rows[i] + node.index] += density.log_density(step.measurement.error(&mean));
             }
         }
     }

@@ -68,7 +68,7 @@ impl Likelihood for Algorithm2 {
                 smoothed.gemv(1.0, &before.gain, &scene.endpoint_error(i, &total, &smoothed), 1.0);
                 let mut bridged = transition.predict(&smoothed, scene.destinations.center(i));
                 bridged.gemv(1.0, &onward.gain, &scene.endpoint_error(i, &rest, &bridged), 1.0);
-                self.table[scene.plan.rows[i] + node.index] += density.log_density(&step.measurement.error(&bridged));
+                self.table[scene.plan.rows[i] + node.index] += density.log_density(step.measurement.error(&bridged));
             }
         }
     }

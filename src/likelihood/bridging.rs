@@ -128,8 +128,8 @@ impl Likelihood for Bridging {
                 let mut mean = onward.mean(&before, scene.destinations.center(i));
                 if let Some(correction) = &correction {
                     let error = &step.measurement.value - &observation * &mean;
-                    self.table[row] += correction.prediction_error.log_density(&error);
                     mean.gemv(1.0, &correction.gain, &error, 1.0);
+                    self.table[row] += correction.prediction_error.log_density(error);
                 }
                 self.means[place..place + size].copy_from_slice(mean.as_slice());
             }

@@ -52,7 +52,7 @@ impl Likelihood for SingleFilterApproximate {
             for &i in node.members {
                 let i = i as usize;
                 let error = scene.endpoint_error(i, &endpoint, &scene.filter.mean(i));
-                table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i) + density.log_density(&error);
+                table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i) + density.log_density(error);
             }
         }
     }

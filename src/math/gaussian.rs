@@ -7,13 +7,10 @@
 //! keeps a covariance positive only as long as its components span less than the sixteen digits of a double: a wide start
 //! and tiny noise lose it. What is a root times its transpose is positive whatever the rounding.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
+use whither_kernel::dense;
 
-/// `ln(2 pi)`.
-pub const LN_2_PI: f64 = 1.837_877_066_409_345_6;
-
-/// A deviation whose square is no number with all its digits.
-pub use whither_kernel::small_gaussian::VANISHING;
+pub use whither_kernel::dense::filter::LN_2_PI;
 
 /// A Gaussian over a vector: mean and covariance.
 ///
@@ -53,7 +50,8 @@ pub struct Conditioning {
 /// A covariance factored by Cholesky.
 #[derive(Clone, Debug)]
 pub struct Factor {
-    cholesky: Cholesky<f64, Dyn>,
+    /// The lower triangular root `L`, `S = L L'`.
+    root: DMatrix<f64>,
     log_normaliser: f64,
 }
 
@@ -69,40 +67,25 @@ impl Factor {
     /// Factors a covariance; none if it is not positive definite.
     #[must_use]
     #[inline(never)]
-    pub fn new(covariance: DMatrix<f64>) -> Option<Self> {
-        Self::of(Cholesky::new(covariance)?)
+    pub fn new(mut covariance: DMatrix<f64>) -> Option<Self> {
+        let size = covariance.nrows();
+        dense::cholesky(covariance.as_mut_slice(), size).then(|| Self::of_root(covariance))?
     }
 
     /// The factor of `L L'` for a lower triangular root; none if it is singular.
     #[must_use]
-    pub fn of_root(root: DMatrix<f64>) -> Option<Self> {
-        Self::of(Cholesky::pack_dirty(root))
-    }
-
-    fn of(cholesky: Cholesky<f64, Dyn>) -> Option<Self> {
-        let n = cholesky.l_dirty().nrows();
-        let log_root: f64 = (0..n).map(|i| cholesky.l_dirty()[(i, i)].ln()).sum();
-        log_root.is_finite().then(|| Self { cholesky, log_normaliser: -log_root - 0.5 * n as f64 * LN_2_PI })
+    fn of_root(root: DMatrix<f64>) -> Option<Self> {
+        let n = root.nrows();
+        let log_root: f64 = (0..n).map(|i| root[(i, i)].ln()).sum();
+        log_root.is_finite().then(|| Self { root, log_normaliser: -log_root - 0.5 * n as f64 * LN_2_PI })
     }
 
     /// The log density of `N(0, S)` at `error`.
     #[must_use]
     #[inline(never)]
-    pub fn log_density(&self, error: &DVector<f64>) -> f64 {
-        let l = self.cholesky.l_dirty();
-        let n = error.len();
-        let mut sum = 0.0;
-        let mut z = [0.0; 16];
-        if n > z.len() {
-            let solved = self.cholesky.l().solve_lower_triangular(error);
-            return self.log_normaliser - 0.5 * solved.map_or(f64::INFINITY, |z| z.norm_squared());
-        }
-        for i in 0..n {
-            let dot: f64 = (0..i).map(|j| l[(i, j)] * z[j]).sum();
-            z[i] = (error[i] - dot) / l[(i, i)];
-            sum += z[i] * z[i];
-        }
-        self.log_normaliser - 0.5 * sum
+    pub fn log_density(&self, mut error: DVector<f64>) -> f64 {
+        let square = dense::squared_distance(self.root.as_slice(), self.root.nrows(), error.as_mut_slice());
+        self.log_normaliser - 0.5 * square
     }
 
     /// `ln` of the density's factor before the exponential: `-ln sqrt(det(2 pi S))`.
@@ -115,13 +98,16 @@ impl Factor {
     #[must_use]
     #[inline(never)]
     pub fn solve(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
-        self.cholesky.solve(b)
+        let (root, size, mut solved) = (self.root.as_slice(), b.nrows(), b.clone());
+        dense::solve_lower(root, size, size, solved.as_mut_slice());
+        dense::solve_upper(root, size, solved.as_mut_slice());
+        solved
     }
 
     /// The lower triangular root `L`, `S = L L'`.
     #[must_use]
-    pub fn root(&self) -> DMatrix<f64> {
-        self.cholesky.l()
+    pub fn into_root(self) -> DMatrix<f64> {
+        self.root
     }
 }
 
@@ -131,125 +117,67 @@ pub fn condition(p: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> Option
     condition_root(&root(p), h, r)
 }
 
-/// As [`condition`], for a root `L` of `P = L L'`: an orthogonal transformation turns
-/// ```text
-/// | R^1/2  H L |          | S^1/2      0  |
-/// |   0     L  |   into   | K S^1/2    L+ |
-/// ```
+/// As [`condition`], for a root `L` of `P = L L'`.
 #[must_use]
 #[inline(never)]
 pub fn condition_root(l: &DMatrix<f64>, h: &DMatrix<f64>, r: &DMatrix<f64>) -> Option<Conditioning> {
     let (m, n) = h.shape();
-    let mut array = DMatrix::zeros(m + n, m + n);
-    array.view_mut((0, 0), (m, m)).copy_from(&root(r));
-    array.view_mut((0, m), (m, n)).copy_from(&(h * l));
-    array.view_mut((m, m), (n, n)).copy_from(l);
-    let array = triangularise(array);
-    let innovation_root = array.view((0, 0), (m, m)).into_owned();
-    // K from K S^1/2, the last column first
-    let mut gain = array.view((m, 0), (n, m)).into_owned();
-    for j in (0..m).rev() {
-        for i in 0..n {
-            let others: f64 = (j + 1..m).map(|k| gain[(i, k)] * innovation_root[(k, j)]).sum();
-            gain[(i, j)] = (gain[(i, j)] - others) / innovation_root[(j, j)];
-        }
-    }
-    Some(Conditioning {
-        gain,
-        root: array.view((m, m), (n, n)).into_owned(),
-        prediction_error: Factor::of_root(innovation_root)?,
-    })
+    let mut array = dense::Conditioning::default();
+    array.set(l.as_slice(), n, h.as_slice(), r.as_slice(), m).then(|| {
+        Some(Conditioning {
+            gain: DMatrix::from_iterator(n, m, array.gain()),
+            root: DMatrix::from_iterator(n, n, array.root()),
+            prediction_error: Factor::of_root(DMatrix::from_iterator(m, m, array.prediction_error()))?,
+        })
+    })?
 }
 
 /// `L L'`, symmetric to the bit.
 #[must_use]
 pub fn square(root: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut squared = root * root.transpose();
-    symmetrise(&mut squared);
+    square_rows(root, 0, root.nrows())
+}
+
+/// The same of so many rows, from this one on.
+#[must_use]
+pub fn square_rows(root: &DMatrix<f64>, from: usize, size: usize) -> DMatrix<f64> {
+    let mut squared = DMatrix::zeros(size, size);
+    dense::square(root.as_slice(), root.nrows(), from, size, squared.as_mut_slice());
     squared
 }
 
 /// A root of a positive semi-definite matrix, `P = A A'`: Cholesky's, with the largest pivot first and every component in
 /// units of its own deviation, until what is left is rounding. Its columns are in the order of the pivots.
 #[must_use]
-#[inline(never)]
 pub fn root(p: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = p.nrows();
-    let deviations: Vec<f64> = (0..n).map(|i| if p[(i, i)] > 0.0 { p[(i, i)].sqrt() } else { 0.0 }).collect();
-    let unit = |i: usize, j: usize| match deviations[i] * deviations[j] {
-        0.0 => 0.0,
-        scale => p[(i, j)] / scale,
-    };
-    let mut left = DMatrix::from_fn(n, n, unit);
-    let mut root = DMatrix::zeros(n, n);
-    for column in 0..n {
-        let pivot = left.diagonal().imax();
-        if left[(pivot, pivot)] <= n as f64 * f64::EPSILON {
-            break;
-        }
-        let part = left.column(pivot) / left[(pivot, pivot)].sqrt();
-        left.ger(-1.0, &part, &part, 1.0);
-        left.row_mut(pivot).fill(0.0);
-        left.column_mut(pivot).fill(0.0);
-        root.set_column(column, &part);
-    }
-    for (i, deviation) in deviations.iter().enumerate() {
-        root.row_mut(i).scale_mut(*deviation);
-    }
+    let mut root = DMatrix::zeros(p.nrows(), p.nrows());
+    dense::root(p.as_slice(), p.nrows(), &mut Vec::new(), root.as_mut_slice());
     root
 }
 
 /// The lower triangular `L` with `L L' = A A'`, its diagonal not negative: reflections from the right, row by row.
 #[must_use]
-#[inline(never)]
 pub fn triangularise(mut a: DMatrix<f64>) -> DMatrix<f64> {
-    let (n, m) = a.shape();
-    let mut reflector = vec![0.0; m];
-    for i in 0..n.min(m) {
-        let norm = a.row(i).columns(i, m - i).norm();
-        if norm < VANISHING {
-            (i..m).for_each(|j| a[(i, j)] = 0.0);
-            continue;
-        }
-        let pivot = a[(i, i)];
-        let diagonal = if pivot > 0.0 { -norm } else { norm };
-        for j in i..m {
-            reflector[j] = a[(i, j)];
-            a[(i, j)] = 0.0;
-        }
-        reflector[i] = pivot - diagonal;
-        // the reflected row's sign is turned with the column's, so that the diagonal is not negative
-        a[(i, i)] = norm;
-        let (scale, sign) = (1.0 / (norm * (norm + pivot.abs())), diagonal.signum());
-        for r in i + 1..n {
-            let dot = (i..m).map(|j| a[(r, j)] * reflector[j]).sum::<f64>() * scale;
-            for j in i..m {
-                a[(r, j)] -= dot * reflector[j];
-            }
-            a[(r, i)] *= sign;
-        }
-    }
-    DMatrix::from_fn(n, n, |i, j| if j < m { a[(i, j)] } else { 0.0 })
+    let rows = a.nrows();
+    dense::triangularise(a.as_mut_slice(), rows, &mut Vec::new());
+    let mut numbers: Vec<f64> = a.data.into();
+    numbers.resize(rows * rows, 0.0);
+    DMatrix::from_vec(rows, rows, numbers)
 }
 
-/// `F P F' + Q`, kept symmetric.
+/// `F P F' + Q`, symmetric to the bit.
 #[must_use]
-#[inline(never)]
 pub fn propagate(f: &DMatrix<f64>, p: &DMatrix<f64>, q: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut covariance = f * p * f.transpose() + q;
-    symmetrise(&mut covariance);
+    let mut covariance = q.clone();
+    let into = covariance.as_mut_slice();
+    dense::propagate(f.as_slice(), f.nrows(), p.as_slice(), q.as_slice(), &mut Vec::new(), into);
     covariance
 }
 
 /// Replaces a matrix by its symmetric part.
-pub fn symmetrise(m: &mut DMatrix<f64>) {
-    for i in 0..m.nrows() {
-        for j in 0..i {
-            let mean = 0.5 * (m[(i, j)] + m[(j, i)]);
-            m[(i, j)] = mean;
-            m[(j, i)] = mean;
-        }
-    }
+pub fn symmetrise(matrix: &mut DMatrix<f64>) {
+    let size = matrix.nrows();
+    dense::symmetrise(matrix.as_mut_slice(), size);
 }
 
 /// Whether a matrix is symmetric to rounding.
@@ -269,7 +197,7 @@ mod tests {
         // by hand: S = [[2, 1], [1, 2]], det 3, S^-1 = [[2, -1], [-1, 2]] / 3, e = (1, 0): e'S^-1 e = 2/3
         let factor = Factor::new(dmatrix![2.0, 1.0; 1.0, 2.0]).unwrap();
         let expected = -LN_2_PI - 0.5 * 3f64.ln() - 1.0 / 3.0;
-        assert!((factor.log_density(&dvector![1.0, 0.0]) - expected).abs() < 1e-14);
+        assert!((factor.log_density(dvector![1.0, 0.0]) - expected).abs() < 1e-14);
     }
 
     #[test]

@@ -4,8 +4,10 @@
 //! the present one, so that the filter is also the fixed-point smoother of Ardeshiri, section 3. Covariances and gains depend on no value: one of each serves every column of means. There is
 //! one column where the motion model does not know the destination, and one for each destination where it does.
 
-use super::gaussian::{Gaussian, condition_root, root, square, triangularise};
-use nalgebra::{Cholesky, DMatrix, DVector};
+use super::gaussian::{Factor, Gaussian, root, square_rows, triangularise};
+use nalgebra::{DMatrix, DVector};
+use whither_kernel::dense;
+use whither_kernel::dense::filter::{Pair, Room};
 
 /// A linear observation `y = G x + v`, `v ~ N(0, V)`, as it was made: missing axes have no row.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +41,7 @@ pub struct Filter {
     pub root: DMatrix<f64>,
     /// `log p(y_2:k | y_1)`, one for each column.
     pub log_evidence: Vec<f64>,
+    room: Room,
 }
 
 /// The time update of a filter: `x_k = F x_{k-1} + M + e`, `e ~ N(0, Q)`, with `M` one column or one for each destination.
@@ -59,13 +62,14 @@ impl Filter {
         let s = first.mean.len();
         let pair = DVector::from_fn(2 * s, |i, _| first.mean[i % s]);
         // Cholesky's own order keeps what is uncorrelated uncorrelated to the bit
-        let one = Cholesky::new(first.covariance.clone())
-            .map_or_else(|| triangularise(root(&first.covariance)), |factor| factor.unpack());
+        let one = Factor::new(first.covariance.clone())
+            .map_or_else(|| triangularise(root(&first.covariance)), Factor::into_root);
         Self {
             states: s,
             means: DMatrix::from_fn(2 * s, columns, |i, _| pair[i]),
             root: DMatrix::from_fn(2 * s, 2 * s, |i, j| if j < s { one[(i % s, j)] } else { 0.0 }),
             log_evidence: vec![0.0; columns],
+            room: Room::default(),
         }
     }
 
@@ -84,7 +88,7 @@ impl Filter {
     /// The covariance of the state now.
     #[must_use]
     pub fn current_covariance(&self) -> DMatrix<f64> {
-        square(&self.root.rows(self.states, self.states).into_owned())
+        square_rows(&self.root, self.states, self.states)
     }
 
     /// The mean of [`Filter::smoothed_start`].
@@ -96,8 +100,7 @@ impl Filter {
     /// The smoothed state at the first observation, `p(x_1 | y_1:k)`, for destination `i`.
     #[must_use]
     pub fn smoothed_start(&self, i: usize) -> Gaussian {
-        let s = self.states;
-        Gaussian { mean: self.start_mean(i), covariance: square(&self.root.view((0, 0), (s, s)).into_owned()) }
+        Gaussian { mean: self.start_mean(i), covariance: square_rows(&self.root, 0, self.states) }
     }
 
     /// `log p(y_2:k | y_1)` under destination `i`'s motion.
@@ -109,46 +112,26 @@ impl Filter {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.means.iter().chain(self.root.iter()).chain(&self.log_evidence).all(|x| x.is_finite())
+        [self.means.as_slice(), self.root.as_slice(), &self.log_evidence].into_iter().all(dense::is_finite)
+    }
+
+    fn parts(&mut self) -> (Pair<'_>, &mut Room) {
+        let Self { states, means, root, log_evidence, room } = self;
+        (Pair { states: *states, root: root.as_mut_slice(), means: means.as_mut_slice(), log_evidence }, room)
     }
 
     /// Liang (8): the prediction of the next state.
     pub fn predict(&mut self, step: &TimeUpdate<'_>) {
-        let s = self.states;
-        let moved = step.transition * self.root.rows(s, s);
-        self.root.view_mut((s, 0), (s, s)).copy_from(&moved.columns(0, s));
-        let mut now = DMatrix::zeros(s, 2 * s);
-        now.columns_mut(0, s).copy_from(&moved.columns(s, s));
-        now.columns_mut(s, s).copy_from(&root(step.noise));
-        self.root.view_mut((s, s), (s, s)).copy_from(&triangularise(now));
-        let mut means = step.transition * self.means.rows(s, s);
-        let shared = step.offsets.ncols() == 1;
-        for (j, mut column) in means.column_iter_mut().enumerate() {
-            column += step.offsets.column(if shared { 0 } else { j });
-        }
-        self.means.rows_mut(s, s).copy_from(&means);
+        let (mut pair, room) = self.parts();
+        pair.predict(step.transition.as_slice(), step.offsets.as_slice(), step.noise.as_slice(), room);
     }
 
     /// The Kalman correction with a measurement. Where its prediction error has no density (a singular covariance, which a
     /// positive definite `V` excludes) the state stays and the answer is false.
     pub fn correct(&mut self, measurement: &Measurement) -> bool {
-        let (s, m) = (self.states, measurement.value.len());
-        if m == 0 {
-            return true;
-        }
-        let mut matrix = DMatrix::zeros(m, 2 * s);
-        matrix.columns_mut(s, s).copy_from(&measurement.matrix);
-        let Some(conditioning) = condition_root(&self.root, &matrix, &measurement.noise) else { return false };
-        let predicted = &matrix * &self.means;
-        for j in 0..self.means.ncols() {
-            let error = &measurement.value - predicted.column(j);
-            self.log_evidence[j] += conditioning.prediction_error.log_density(&error);
-            let correction = &conditioning.gain * &error;
-            let mut column = self.means.column_mut(j);
-            column += correction;
-        }
-        self.root = conditioning.root;
-        true
+        let Measurement { value, matrix, noise } = measurement;
+        let (mut pair, room) = self.parts();
+        value.is_empty() || pair.correct(value.as_slice(), matrix.as_slice(), noise.as_slice(), room)
     }
 }
 
@@ -171,7 +154,7 @@ mod tests {
             assert!(filter.correct(&Measurement { value, matrix: dmatrix![1.0], noise: dmatrix![v] }));
         }
         let joint = dmatrix![2.0 + q + v, 2.0 + q; 2.0 + q, 2.0 + 2.0 * q + v];
-        let expected = Factor::new(joint.clone()).unwrap().log_density(&dvector![0.5, -0.9]);
+        let expected = Factor::new(joint.clone()).unwrap().log_density(dvector![0.5, -0.9]);
         assert!((filter.log_evidence[0] - expected).abs() < 1e-14);
         // the start given both: cov(x_1, y) = 2 for each
         let weights = joint.try_inverse().unwrap() * dvector![2.0, 2.0];

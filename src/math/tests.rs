@@ -86,5 +86,5 @@ fn conditioning_is_that_of_dynamic_matrices() {
     let (gain, variance) = whither_kernel::small_gaussian::condition(&mut root, 3, 1, 0.3);
     assert!((dense(&root) - &expected.root).amax() < 1e-15);
     assert!((0..3).all(|i| (gain[i] - expected.gain[(i, 0)]).abs() < 1e-15));
-    assert!((variance - expected.prediction_error.root()[(0, 0)].powi(2)).abs() < 1e-15);
+    assert!((variance - expected.prediction_error.into_root()[(0, 0)].powi(2)).abs() < 1e-15);
 }

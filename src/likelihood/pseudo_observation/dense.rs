@@ -51,8 +51,8 @@ impl Likelihood for Dense {
             for &i in node.members {
                 let i = i as usize;
                 table[scene.plan.rows[i] + node.index] = scene.filter.evidence(i)
-                    + from_now.log_density(&scene.endpoint_error(i, &now, &scene.filter.mean(i)))
-                    - from_start.log_density(&scene.endpoint_error(i, &start, &scene.first.mean));
+                    + from_now.log_density(scene.endpoint_error(i, &now, &scene.filter.mean(i)))
+                    - from_start.log_density(scene.endpoint_error(i, &start, &scene.first.mean));
             }
         }
     }

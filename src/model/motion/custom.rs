@@ -5,7 +5,7 @@
 //! F(h) = exp(A h)    M(h) = int_0^h exp(A u) b du    B(h) = int_0^h exp(A u) B du    Q(h) = int_0^h exp(A u) W exp(A' u) du
 //! ```
 //!
-//! Source: Liang (1); the integrals are those of [`VanLoan`]. Keys: `drift` is `A`, `s` by `s`, with the `d` positions
+//! Source: Liang (1); the integrals are those of [`whither_kernel::van_loan`]. Keys: `drift` is `A`, `s` by `s`, with the `d` positions
 //! first; `diffusion` is `W`, `s` by `s`, symmetric and positive semi-definite; `offset` is `b` and `destinationGain` is
 //! `B`, `s` by `d`, both zero where they are left out. Axes may mix, so there is no step of one axis.
 //!
@@ -15,9 +15,10 @@
 use super::super::matrix::Matrix;
 use super::{AxisTransition, MotionModel, Transition};
 use crate::error::{Code, Result};
-use crate::math::van_loan::VanLoan;
+use crate::math::van_loan::series;
 use crate::value::Path;
 use nalgebra::{DMatrix, DVector};
+use whither_kernel::van_loan::Series;
 
 /// The most state components that a custom model can have.
 const MAX_STATES: usize = 64;
@@ -32,7 +33,7 @@ pub struct Custom {
     states: usize,
     offset: Option<DVector<f64>>,
     destination_gain: Option<DMatrix<f64>>,
-    equation: VanLoan,
+    equation: Series,
 }
 
 impl Custom {
@@ -66,7 +67,7 @@ impl Custom {
         let offset = offset.map(|offset| at.key("offset").vector(offset, states, |at, x| at.number(x))).transpose()?;
         let gain =
             destination_gain.map(|gain| gain.check(&at.key("destinationGain"), states, dimensions)).transpose()?;
-        let equation = VanLoan::new(&drift, &density);
+        let equation = series(&drift, &density);
         Ok(Self {
             dimensions,
             states,
@@ -95,19 +96,21 @@ impl MotionModel for Custom {
     }
 
     fn transition(&self, step: f64) -> Transition {
+        let s = self.states;
         let constant = self.offset.is_some() || self.depends_on_destination();
         let over = if constant { self.equation.step(step) } else { self.equation.step_without_integral(step) };
+        let integral = DMatrix::from_vec(s, if constant { s } else { 0 }, over.integral);
         Transition {
             offset: match &self.offset {
-                Some(offset) => &over.integral * offset,
-                None => DVector::zeros(self.states()),
+                Some(offset) => &integral * offset,
+                None => DVector::zeros(s),
             },
             destination_gain: match &self.destination_gain {
-                Some(gain) if self.depends_on_destination() => Some(&over.integral * gain),
+                Some(gain) if self.depends_on_destination() => Some(&integral * gain),
                 _ => None,
             },
-            transition: over.transition,
-            noise: over.noise,
+            transition: DMatrix::from_vec(s, s, over.transition),
+            noise: DMatrix::from_vec(s, s, over.noise),
         }
     }
 }

@@ -11,14 +11,15 @@
 //! tracking using bridging distributions", IEEE Transactions on Cybernetics 48 (2018).
 //!
 //! The closed forms differ between the underdamped, critical and overdamped spring, and each of them cancels somewhere
-//! (short steps, near the critical damping, almost no damping). [`VanLoan`] is as accurate in all of them, so it is the
+//! (short steps, near the critical damping, almost no damping). [`whither_kernel::van_loan`] is as accurate in all of them, so it is the
 //! one form here; the tests compare it with the closed forms, computed with 150 digits.
 
 use super::{AxisTransition, MotionModel};
 use crate::error::Result;
-use crate::math::van_loan::VanLoan;
+use crate::math::van_loan::series;
 use crate::value::Path;
 use nalgebra::DMatrix;
+use whither_kernel::van_loan::Series;
 
 /// A damped spring towards the destination; `s = 2d`.
 #[derive(Clone, Debug)]
@@ -26,7 +27,7 @@ pub struct EquilibriumRevertingVelocity {
     noise: Vec<f64>,
     stiffness: f64,
     /// One axis, driven by noise of unit density.
-    equation: VanLoan,
+    equation: Series,
 }
 
 impl EquilibriumRevertingVelocity {
@@ -35,7 +36,7 @@ impl EquilibriumRevertingVelocity {
         let damping = at.key("damping").not_negative(damping)?;
         let drift = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -stiffness, -damping]);
         let diffusion = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 1.0]);
-        Ok(Self { noise, stiffness, equation: VanLoan::new(&drift, &diffusion) })
+        Ok(Self { noise, stiffness, equation: series(&drift, &diffusion) })
     }
 }
 
@@ -58,10 +59,10 @@ impl MotionModel for EquilibriumRevertingVelocity {
         let mut one = AxisTransition { states: 2, ..AxisTransition::default() };
         for i in 0..2 {
             for j in 0..2 {
-                one.transition[i][j] = over.transition[(i, j)];
-                one.noise[i][j] = noise * noise * over.noise[(i, j)];
+                one.transition[i][j] = over.transition[i + 2 * j];
+                one.noise[i][j] = noise * noise * over.noise[i + 2 * j];
             }
-            one.destination_gain[i] = self.stiffness * over.integral[(i, 1)];
+            one.destination_gain[i] = self.stiffness * over.integral[i + 2];
         }
         Some(one)
     }
