@@ -5,6 +5,7 @@
 //! is compiled for speed, and everything else for size.
 
 pub mod axes;
+pub mod coupled;
 pub mod dense;
 pub mod endpoints;
 pub mod layout;

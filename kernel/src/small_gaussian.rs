@@ -1,8 +1,7 @@
 //! Gaussians of fixed size, in arrays, so that an observation allocates nothing: roots of covariances and their conditioning,
 //! the inverse of small matrices, and in [`axis_filter`] the Kalman filter of one axis.
 //!
-//! Sizes that only a scenario gives (all axes together, several components observed at once) stay with the dynamic matrices of
-//! `math::gaussian` and `math::kalman` of whither: with room for the largest state they would copy the square of its size in every
+//! Sizes that only a scenario gives (all axes together, several components observed at once) are with [`crate::dense`]: with room for the largest state they would copy the square of its size in every
 //! step. Of an array that has room for more, only the part that the arguments name is read.
 
 pub mod axis_filter;
@@ -114,35 +113,6 @@ pub fn root<const S: usize>(p: &Matrix<S>, s: usize) -> Matrix<S> {
     root
 }
 
-/// The inverse and the determinant of a positive definite matrix over the first `d` components, none where it is not, by
-/// elimination: it loses fewer digits than [`inverse`] where components depend on each other, but branches on the numbers.
-pub fn eliminate<const S: usize>(mut matrix: Matrix<S>, d: usize) -> Option<(Matrix<S>, f64)> {
-    let mut determinant = 1.0;
-    // Gauss and Jordan in place; a positive definite matrix needs no pivoting
-    for k in 0..d {
-        let pivot = matrix[k][k];
-        determinant *= pivot;
-        if !(pivot > 0.0) {
-            return None;
-        }
-        let over = 1.0 / pivot;
-        matrix[k][k] = 1.0;
-        for j in 0..d {
-            matrix[k][j] *= over;
-        }
-        let row = matrix[k];
-        for i in 0..d {
-            if i != k {
-                let factor = std::mem::replace(&mut matrix[i][k], 0.0);
-                for j in 0..d {
-                    matrix[i][j] -= factor * row[j];
-                }
-            }
-        }
-    }
-    Some((matrix, determinant))
-}
-
 /// The inverse and the determinant of a positive definite matrix by its adjugate, for numbers and for [`crate::vectors::Lanes`]
 /// alike; the entries of axes that there are not are without meaning.
 #[inline(always)]
@@ -199,21 +169,15 @@ mod tests {
     }
 
     #[test]
-    fn both_inverses_are_inverses() {
-        let matrix = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.25], [-0.5, 0.25, 2.0]];
+    fn the_inverse_is_one_and_has_its_determinant() {
+        let matrix = dmatrix![4.0, 1.0, -0.5; 1.0, 3.0, 0.25; -0.5, 0.25, 2.0];
         for d in 1..=3 {
-            let part = dense(&matrix).view((0, 0), (d, d)).into_owned();
-            let (one, determinant) = eliminate(matrix, d).unwrap();
-            let (other, adjugate_determinant) = inverse(&[4.0, 1.0, 3.0, -0.5, 0.25, 2.0], d);
+            let part = matrix.view((0, 0), (d, d)).into_owned();
+            let (found, determinant) = inverse(&[4.0, 1.0, 3.0, -0.5, 0.25, 2.0], d);
             let place = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
-            for found in
-                [dense(&one).view((0, 0), (d, d)).into_owned(), DMatrix::from_fn(d, d, |i, j| other[place[i][j]])]
-            {
-                assert!((found * &part - DMatrix::identity(d, d)).amax() < 1e-15);
-            }
+            let found = DMatrix::from_fn(d, d, |i, j| found[place[i][j]]);
+            assert!((found * &part - DMatrix::identity(d, d)).amax() < 1e-15);
             assert!((determinant - part.determinant()).abs() < 1e-13);
-            assert!((adjugate_determinant - part.determinant()).abs() < 1e-13);
         }
-        assert!(eliminate([[1.0, 2.0], [2.0, 1.0]], 2).is_none(), "its determinant is -3");
     }
 }

@@ -3,10 +3,11 @@
 use super::classes::{ClassEndpoint, Nodes};
 use super::coefficients::Work;
 use super::conversion::coupled_of;
-use super::coupled::{self, Coupled};
-use crate::model::motion::{MotionModel, Transition};
+use super::coupled::{Coupled, Room};
+use crate::model::motion::MotionModel;
 use std::sync::Arc;
 use whither_kernel::axes::{Axes, Start};
+use whither_kernel::coupled::{self, Steps};
 use whither_kernel::endpoints::{AxisEndpoint, NodeTable};
 use whither_kernel::mixture::AXES;
 use whither_kernel::ratios::Prediction;
@@ -35,6 +36,8 @@ pub(super) struct Tables {
     pub start: StepsTo,
     /// Room for the state that the start predicts for now.
     predicted: Start,
+    /// Room for the same where axes mix.
+    room: Room,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -44,7 +47,7 @@ pub(super) struct StepsTo {
     /// The nodes' prior probabilities, zero for those that had passed.
     pub weights: Vec<Block>,
     pub axes: [NodeTable; AXES],
-    pub complete: Vec<Transition>,
+    pub complete: Steps,
 }
 
 impl Candidate {
@@ -85,7 +88,7 @@ impl Candidate {
         work: &mut Work,
     ) {
         let model = self.model.as_ref();
-        let Tables { now: to_now, start: to_start, predicted } = &mut self.tables;
+        let Tables { now: to_now, start: to_start, predicted, room } = &mut self.tables;
         // nodes that count from now are as far from now as from where the start's prediction has come to by then
         let passed = if nodes.from_now { 0.0 } else { elapsed };
         match &self.source {
@@ -113,22 +116,20 @@ impl Candidate {
             }
             Source::Coupled(coupled) => {
                 to_now.fill_complete(model, number, nodes, passed);
-                let start = if nodes.from_now {
-                    coupled.predict_first(model, elapsed)
+                let steps = if nodes.from_now {
+                    &to_now.complete
                 } else {
                     to_start.fill_complete(model, number, nodes, 0.0);
-                    coupled.first.clone()
+                    &to_start.complete
                 };
-                let start_steps = if nodes.from_now { &to_now.complete } else { &to_start.complete };
-                let (now, mut room) = (coupled.now(), coupled::Room::default());
-                let steps = to_now.complete.iter().zip(start_steps).zip(to_now.weights.as_flattened());
-                for ((step, start_step), weight) in steps.filter(|(_, weight)| **weight > 0.0) {
-                    let factor = self.weight * weight;
-                    let d = model.dimensions();
-                    let term =
-                        coupled::ellipsoid((&now, step), (&start, start_step), endpoint, (factor, lead), d, &mut room);
-                    work.ellipsoids.extend(term);
-                }
+                coupled.predict(model, nodes.from_now.then_some(elapsed), room);
+                let (now, start) = ((&*room.now, &to_now.complete), (&*room.start, steps));
+                let (weights, weight) = (&*to_now.weights, self.weight);
+                coupled::Prediction { now, start, weights, weight, lead }.ellipsoids(
+                    &endpoint.complete(),
+                    &mut room.nodes,
+                    &mut work.ellipsoids,
+                );
             }
         }
     }
@@ -170,7 +171,10 @@ impl StepsTo {
         if self.is(number, nodes, passed) {
             return;
         }
-        self.complete.clear();
-        self.complete.extend(nodes.times.iter().map(|time| model.transition((time - passed).max(0.0))));
+        self.complete.clear(model.states());
+        for time in &nodes.times {
+            let step = model.transition((time - passed).max(0.0));
+            self.complete.push(step.transition.as_slice(), step.offset.as_slice(), step.noise.as_slice());
+        }
     }
 }

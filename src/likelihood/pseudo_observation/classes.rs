@@ -13,6 +13,7 @@ use std::array::from_fn;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 use whither_kernel::axes::MOST;
+use whither_kernel::coupled::Endpoint;
 use whither_kernel::endpoints::AxisEndpoint;
 use whither_kernel::layout::{FEW, Layout};
 use whither_kernel::mixture::AXES;
@@ -93,6 +94,12 @@ impl ClassEndpoint {
             covariance[(i, i)] = 0.0;
         }
         Self { rest, covariance, axes: Some(axes) }
+    }
+
+    /// The endpoint where axes mix.
+    pub fn complete(&self) -> Endpoint<'_> {
+        let dimensions = self.covariance.nrows() - self.rest.len();
+        Endpoint { dimensions, rest: &self.rest, covariance: self.covariance.as_slice() }
     }
 
     fn key(&self) -> Vec<u64> {
