@@ -26,12 +26,12 @@ export function reserve(bytes: number): void {
 }
 
 /** A view of all memory; where that has grown since, it has no length any more. */
-let all = new Uint8Array(0);
+let all: Uint8Array | null = null;
 let scarce = false;
 
 /** Whether so much memory is in use that even a small allocation has to be reserved. */
 export function isScarce(): boolean {
-  if (all.length === 0) {
+  if (all === null || all.length === 0) {
     all = new Uint8Array(memory());
     scarce = all.length > ALWAYS / 2;
   }

@@ -11,8 +11,6 @@ import { bounds, copyIn, isScarce, reserve, type Bounds } from "./memory.js";
 import type { Destination, Matrix, Scenario, Vector } from "./scenario.js";
 import { isList, MOST_ITEMS } from "./list.js";
 
-const NOTHING = new Float64Array(0);
-
 /** What one destination with arrival times of its own may take, in bytes. */
 const ONE = 2 ** 23;
 
@@ -93,7 +91,7 @@ export interface Snapshot {
  */
 export class Predictor {
   #engine: Engine | null;
-  #view = NOTHING;
+  #view: Float64Array | null = null;
   /** Whether the memory for a movement is reserved, and a bound of it. */
   #reserved = false;
   #movement = 0;
@@ -390,7 +388,7 @@ export class Predictor {
     reserve(times * bound[what] + more);
     // with other destinations a movement needs another amount, and their numbers have another length
     this.#movement = times * bound.movement;
-    this.#view = NOTHING;
+    this.#view = null;
     return engine;
   }
 
@@ -398,7 +396,7 @@ export class Predictor {
   #viewAt(engine: Engine, address: number): Float64Array {
     const view = this.#view;
     // as long as the memory has not grown, which leaves the view without a length
-    if (view.byteOffset === address && view.length > 0) return view;
+    if (view !== null && view.byteOffset === address && view.length > 0) return view;
     return (this.#view = new Float64Array(memory(), address, engine.len()));
   }
 }
