@@ -5,6 +5,7 @@
 //! is compiled for speed, and everything else for size.
 
 pub mod axes;
+pub mod bearings;
 pub mod coupled;
 pub mod dense;
 pub mod endpoints;
@@ -12,5 +13,6 @@ pub mod layout;
 pub mod mixture;
 pub mod ratios;
 pub mod small_gaussian;
+pub mod start;
 pub mod van_loan;
 pub mod vectors;

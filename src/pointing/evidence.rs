@@ -4,6 +4,7 @@ use super::course::{Course, Onset};
 use super::parameters::{Direction, Start};
 use super::targets::Extent;
 use super::{Space, Vector, cross, dot, minus};
+use whither_kernel::bearings::Way;
 
 /// `ln (distance^2 + core^2)^(-exponent/2)` at `offset` from the start: how likely a movement ends there, before it is observed.
 /// The square of `onset`'s shortfall is added to that of the core.
@@ -46,18 +47,13 @@ impl<'a, S: Space> DirectionNow<'a, S> {
         Self { direction, space: course.space(), way, weight: direction.power * weight }
     }
 
-    /// How much it counts.
+    /// The same for the hot loop, with the power of the ratio of densities beside it.
     #[must_use]
-    pub const fn weight(&self) -> f64 {
-        self.weight
-    }
-
-    /// The way covered, one unit of length long; zero where there is none.
-    #[must_use]
-    pub fn unit(&self) -> Vector {
+    pub fn way(&self, power: f64) -> Way {
         let net = dot(&self.way, &self.way).sqrt();
         let [x, y, z] = self.way;
-        if net > 0.0 { [x / net, y / net, z / net] } else { [0.0; 3] }
+        let unit = if net > 0.0 { [x / net, y / net, z / net] } else { [0.0; 3] };
+        Way { unit, weight: self.weight, power }
     }
 
     /// The square of the angle beyond which nothing is lost any more.

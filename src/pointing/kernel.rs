@@ -7,19 +7,13 @@
 //! with `t` the angle between the way so far and the destination, `w` and `c` the squares of `wide` and `core`. `N_i` is a
 //! sum of [`SharedDensity`] terms where destinations share the covariance of their endpoints, of [`Density`] terms where not.
 
+use super::Space;
 use super::endpoint::Nodes;
-use super::evidence::DirectionNow;
 use super::from_start::FromStart;
-use super::targets::{Class, Targets};
-use super::{Space, Vector};
-use whither_kernel::mixture::{Density, Places, SharedDensity, Sums};
-use whither_kernel::vectors::{Block, Lanes, raise};
-
-/// Where `log2 N_i / S_i` is below this, `N_i` may have been cut off.
-const CERTAIN: f64 = -500.0;
-
-/// The variance of a direction without information. None is larger, and the product of three of them is a number still.
-const NO_DIRECTION: f64 = 1e100;
+use super::targets::Targets;
+use whither_kernel::bearings::Way;
+use whither_kernel::mixture::{Density, SharedDensity, Sums};
+use whither_kernel::vectors::{Block, raise};
 
 /// What is this many powers of two below the most probable does not matter.
 const NOTHING: f64 = 60.0;
@@ -38,12 +32,8 @@ pub struct Work {
 pub(crate) struct Now<'a, S> {
     /// The endpoint densities.
     pub nodes: &'a Nodes<S>,
-    /// The direction.
-    pub direction: &'a DirectionNow<'a, S>,
-    /// The start of the movement.
-    pub start: &'a Vector,
-    /// The power `g`.
-    pub power: f64,
+    /// The direction, and the power `g`.
+    pub way: &'a Way,
 }
 
 impl Work {
@@ -65,7 +55,7 @@ impl Work {
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
         for class in targets.classes() {
             let (places, blocks) = (targets.places(&class.blocks), class.blocks.clone());
-            let (over_start, weights) = (&from_start.over_start[blocks.clone()], &mut weights[blocks]);
+            let (over_start, weights) = (&from_start.over_start[blocks.clone()], &mut weights[blocks.clone()]);
             match &class.covariance {
                 Some(covariance) => {
                     now.nodes.shared_densities(covariance, shared);
@@ -76,7 +66,7 @@ impl Work {
                     Density::weighted_sums(d, densities, &places, 0.0, over_start, weights);
                 }
             }
-            let (best, worst) = exponents(class, &places, now, weights);
+            let (best, worst) = from_start.bearings.exponents(blocks.start, now.way, weights);
             (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
         let shift = most.round();
@@ -89,81 +79,4 @@ impl Work {
         into.iter_mut().for_each(|weight| *weight *= over);
         Some(total.ln() + shift * std::f64::consts::LN_2)
     }
-}
-
-/// Turns the sums `N_i / S_i` into the exponents of the likelihoods, and returns the largest, and the largest of those
-/// whose sums may have been cut off.
-#[inline(never)]
-fn exponents<S: Space>(class: &Class, places: &Places<'_>, now: &Now<'_, S>, weights: &mut [Block]) -> (f64, f64) {
-    let s = Lanes::splat;
-    let (zero, one) = (s(0.0), s(1.0));
-    let (wide, core) = (s(now.direction.wide_squared()), s(now.direction.core_squared()));
-    let (power, weight, way) = (s(now.power), s(now.direction.weight()), now.direction.unit());
-    let three = now.nodes.dimensions() > 2;
-    let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
-    for (i, exponent) in weights.iter_mut().enumerate() {
-        // no loops over the axes: at the level for size they would stay loops
-        let (x, y) = (offset(places, 0, i, now.start), offset(places, 1, i, now.start));
-        let third = if three { Some(offset(places, 2, i, now.start)) } else { None };
-        let mut square = squared(x) + squared(y);
-        if let Some(z) = third {
-            square = square + squared(z);
-        }
-        let distance = square.at_least(s(f64::MIN_POSITIVE)).sqrt();
-        // one division for both one over the distance and distance / (distance^2 + 1)
-        let further = square + one;
-        let over = one / (distance * further);
-        let scale = further * over;
-        let (x, y) = (x * scale, y * scale);
-        let [xx, xy, yy, xz, yz, zz] = match &class.covariance {
-            Some([xx, xy, yy, xz, yz, zz]) => [s(*xx), s(*xy), s(*yy), s(*xz), s(*yz), s(*zz)],
-            None => [own(places, 0, i), zero, own(places, 1, i), zero, zero, own(places, 2, i)],
-        };
-        // the squared lengths of the sum of two unit vectors and of their difference
-        let mut sum = squared(x + s(way[0])) + squared(y + s(way[1]));
-        let mut difference = squared(x - s(way[0])) + squared(y - s(way[1]));
-        // `(trace S - u'S u) / (d - 1)` along the unit vector `u`, multiplied out, so that nothing large is subtracted
-        let (a, b, mixed) = (squared(x), squared(y), xy * x * y);
-        let mut across = xx * b + yy * a - (mixed + mixed);
-        if let Some(z) = third {
-            let z = z * scale;
-            sum = sum + squared(z + s(way[2]));
-            difference = difference + squared(z - s(way[2]));
-            let mixed = z * (xz * x + yz * y);
-            across = s(0.5) * (across + (xx + yy) * squared(z) + zz * (a + b) - (mixed + mixed));
-        }
-        let angle = Lanes::squared_angle(sum, difference);
-        // what is at the start itself lies in no direction
-        let nowhere = (one - square * s(f64::MIN_POSITIVE.recip())).at_least(zero);
-        let shrunk = square * over;
-        let variance = across * shrunk * shrunk + nowhere * s(NO_DIRECTION);
-        let (wide, core) = (wide + variance, core + variance);
-        let wider = wide + angle;
-        let evidence = (wider * wider * core) / (wide * wide * (core + angle));
-        let ratio = Lanes::load(exponent).log2();
-        let exponent_sum = power * ratio + weight * evidence.log2();
-        let sure = ((ratio - s(CERTAIN)).at_least(zero)).at_most(one);
-        most = exponent_sum.at_least(most);
-        doubtful = (exponent_sum - sure * s(1e9)).at_least(doubtful);
-        exponent_sum.store(exponent);
-    }
-    (most.most(), doubtful.most())
-}
-
-#[inline(always)]
-fn squared(x: Lanes) -> Lanes {
-    x * x
-}
-
-#[inline(always)]
-fn offset(places: &Places<'_>, axis: usize, i: usize, start: &Vector) -> Lanes {
-    match places.coordinates[axis].get(i) {
-        Some(block) => Lanes::load(block) - Lanes::splat(start[axis]),
-        None => Lanes::splat(0.0),
-    }
-}
-
-#[inline(always)]
-fn own(places: &Places<'_>, axis: usize, i: usize) -> Lanes {
-    places.variances[axis].get(i).map_or(Lanes::splat(0.0), Lanes::load)
 }

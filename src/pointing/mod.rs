@@ -105,7 +105,7 @@ impl<S: Space> Pointing<S> {
     /// Goes on from a course that was saved.
     #[must_use]
     pub fn resume(parameters: Arc<PointingConstants>, targets: Arc<Targets>, course: Course<S>) -> Self {
-        let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets));
+        let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets, course.dimensions()));
         let log_volume = parameters.start.log_volume(course.dimensions());
         Self { parameters, targets, log_volume, course, nodes, from_start, work: Work::default() }
     }
@@ -138,7 +138,7 @@ impl<S: Space> Pointing<S> {
 
     /// Other targets, in mid-movement too: nothing accumulates for any of them.
     pub fn replan(&mut self, targets: Arc<Targets>) {
-        self.from_start = FromStart::of(&targets);
+        self.from_start = FromStart::of(&targets, self.course.dimensions());
         self.targets = targets;
     }
 
@@ -148,13 +148,9 @@ impl<S: Space> Pointing<S> {
         let (onset, d) = (self.onset(), self.course.dimensions());
         let Self { parameters, targets, course, .. } = self;
         if course.observations > 1 {
-            self.from_start.update(targets, parameters, d, self.log_volume, &course.start, onset);
-            let now = Now {
-                nodes: &self.nodes,
-                direction: &DirectionNow::new(&parameters.direction, course),
-                start: &course.start,
-                power: parameters.power.after(course.elapsed),
-            };
+            self.from_start.update(targets, parameters, self.log_volume, course, onset);
+            let way = DirectionNow::new(&parameters.direction, course).way(parameters.power.after(course.elapsed));
+            let now = Now { nodes: &self.nodes, way: &way };
             if let Some(log_sum) = self.work.probabilities(targets, &self.from_start, &now, into) {
                 return Some(log_sum);
             }

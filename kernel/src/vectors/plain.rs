@@ -1,6 +1,6 @@
 //! The operations as plain loops.
 
-use super::{BIAS, Block, CENTRED, ONE, TWO_52, WIDTH};
+use super::{BIAS, Block, NEAREST, TWO_52, WIDTH};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Vector(Block);
@@ -73,11 +73,15 @@ impl Vector {
         self.both(integer, |x, integer| f64::from_bits(x.to_bits().wrapping_add(integer.to_bits() << 52)))
     }
 
-    /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
+    /// Of normal numbers above zero: minus itself over the power of two that brings it within a factor of 1.51 of `other`, and
+    /// the exponent of that power.
     #[inline(always)]
-    pub fn split(self) -> (Self, Self) {
-        let integer = |x: f64| (x.to_bits().wrapping_add(CENTRED)) >> 52;
-        let factor = self.each(|x| f64::from_bits(x.to_bits().wrapping_sub(integer(x) << 52).wrapping_add(ONE)));
-        (factor, self.each(|x| f64::from_bits(integer(x) | TWO_52) - BIAS))
+    pub fn less_a_power(self, other: Self) -> (Self, Self) {
+        let bits = self.both(other, |x, other| {
+            f64::from_bits(x.to_bits().wrapping_sub(other.to_bits()).wrapping_add(NEAREST) >> 52)
+        });
+        // the 2048 of `NEAREST` goes to the bit of the sign
+        let minus = self.both(bits, |x, bits| f64::from_bits(x.to_bits().wrapping_sub(bits.to_bits() << 52)));
+        (minus, bits.each(|bits| f64::from_bits(bits.to_bits() | TWO_52) - BIAS))
     }
 }

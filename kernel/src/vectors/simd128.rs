@@ -1,6 +1,6 @@
 //! The operations as instructions of WebAssembly, all of them safe functions.
 
-use super::{BIAS, Block, CENTRED, ONE, TWO_52};
+use super::{BIAS, Block, NEAREST, TWO_52};
 use core::arch::wasm32::{
     f64x2, f64x2_add, f64x2_div, f64x2_extract_lane, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sqrt,
     f64x2_sub, i64x2_add, i64x2_shl, i64x2_sub, u64x2_shr, u64x2_splat, v128, v128_or,
@@ -82,11 +82,13 @@ impl Vector {
         self.both(integer, |x, integer| i64x2_add(x, i64x2_shl(integer, 52)))
     }
 
-    /// Of normal numbers above zero: a factor from `sqrt(1/2)` to `sqrt(2)`, and the power of two that goes with it.
+    /// Of normal numbers above zero: minus itself over the power of two that brings it within a factor of 1.51 of `other`, and
+    /// the exponent of that power.
     #[inline(always)]
-    pub fn split(self) -> (Self, Self) {
-        let integer = |x| u64x2_shr(i64x2_add(x, u64x2_splat(CENTRED)), 52);
-        let factor = self.each(|x| i64x2_add(i64x2_sub(x, i64x2_shl(integer(x), 52)), u64x2_splat(ONE)));
-        (factor, self.each(|x| f64x2_sub(v128_or(integer(x), u64x2_splat(TWO_52)), f64x2_splat(BIAS))))
+    pub fn less_a_power(self, other: Self) -> (Self, Self) {
+        let bits = self.both(other, |x, other| u64x2_shr(i64x2_add(i64x2_sub(x, other), u64x2_splat(NEAREST)), 52));
+        // the 2048 of `NEAREST` goes to the bit of the sign
+        let minus = self.both(bits, |x, bits| i64x2_sub(x, i64x2_shl(bits, 52)));
+        (minus, bits.each(|bits| f64x2_sub(v128_or(bits, u64x2_splat(TWO_52)), f64x2_splat(BIAS))))
     }
 }
