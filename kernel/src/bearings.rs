@@ -17,14 +17,18 @@ const NO_DIRECTION: f64 = 1e100;
 /// Where `log2` of a sum is below this, it may have been cut off.
 const CERTAIN: f64 = -500.0;
 
+/// A line is a plane in which nothing lies beside it.
+const PLANE: usize = 2;
+
 /// Much more than the difference of any two exponents.
 const FAR: f64 = 1e9;
 
-/// What is known of the direction of the places of a block, in memory [`Bearings::numbers`] of them: the unit vector, zero at the
-/// start itself, then `w + z` and `(w + z)^2 / (c + z)`.
+/// What is known of the direction of places, block by block: the unit vector, zero at the start itself, then `w + z` and
+/// `(w + z)^2 / (c + z)`.
+///
+/// The number of dimensions is an argument wherever it is needed: where it is a constant, nothing is compiled for others.
 #[derive(Clone, Debug)]
 pub struct Bearings {
-    dimensions: usize,
     blocks: Vec<Block>,
 }
 
@@ -54,7 +58,7 @@ impl Bearings {
     /// Room for so many blocks of places.
     #[must_use]
     pub fn with_capacity(dimensions: usize, blocks: usize) -> Self {
-        Self { dimensions, blocks: Vec::with_capacity(blocks * (dimensions + 2)) }
+        Self { blocks: Vec::with_capacity(blocks * (dimensions.max(PLANE) + 2)) }
     }
 
     /// Forgets all places.
@@ -70,42 +74,35 @@ impl Bearings {
 
     /// Appends places; `covariance` is that of the endpoints of all of them, without one each has its own variances.
     #[inline(never)]
-    pub fn extend(&mut self, places: &Places<'_>, covariance: Option<&Symmetric>, origin: &Origin) {
-        match self.dimensions {
-            1 => self.append::<1>(places, covariance, origin),
-            2 => self.append::<2>(places, covariance, origin),
-            _ => self.append::<3>(places, covariance, origin),
-        }
-    }
-
-    fn append<const D: usize>(&mut self, places: &Places<'_>, covariance: Option<&Symmetric>, origin: &Origin) {
+    pub fn extend(&mut self, dimensions: usize, places: &Places<'_>, covariance: Option<&Symmetric>, origin: &Origin) {
         let s = Lanes::splat;
+        let share = s(if dimensions > 2 { 0.5 } else { 1.0 });
         let mut push = |lanes: Lanes| {
             let mut block = Block::default();
             lanes.store(&mut block);
             self.blocks.push(block);
         };
         for i in 0..places.coordinates[0].len() {
-            let mut unit = [s(0.0); AXES];
-            let mut square = s(0.0);
-            for axis in 0..D {
-                unit[axis] = Lanes::load(&places.coordinates[axis][i]) - s(origin.start[axis]);
-                square = square + unit[axis] * unit[axis];
-            }
+            let at = |list: &[Block]| list.get(i).map_or(s(0.0), Lanes::load);
+            let offset = |axis: usize| at(places.coordinates[axis]) - s(origin.start[axis]);
+            let [x, y, z] = [offset(0), offset(1), offset(2)];
+            let square = x * x + y * y + z * z;
             let over = s(1.0) / square.at_least(s(f64::MIN_POSITIVE)).sqrt();
-            unit = unit.map(|component| component * over);
-            let own = |axis: usize| places.variances[axis].get(i).map_or(s(0.0), Lanes::load);
+            let unit = [x * over, y * over, z * over];
             let covariance = match covariance {
                 Some(covariance) => covariance.map(s),
-                None => [own(0), s(0.0), own(1), s(0.0), s(0.0), own(2)],
+                None => {
+                    let own = |axis: usize| at(places.variances[axis]);
+                    [own(0), s(0.0), own(1), s(0.0), s(0.0), own(2)]
+                }
             };
             // what is at the start itself lies in no direction
             let nowhere = (s(1.0) - square * s(f64::MIN_POSITIVE.recip())).at_least(s(0.0));
             // distance / (distance^2 + 1)
             let shrunk = square * over / (square + s(1.0));
-            let variance = across::<D>(&covariance, unit) * shrunk * shrunk + nowhere * s(NO_DIRECTION);
+            let variance = share * across(&covariance, &unit) * shrunk * shrunk + nowhere * s(NO_DIRECTION);
             let wide = s(origin.wide) + variance;
-            unit.into_iter().take(D).for_each(&mut push);
+            unit.into_iter().take(dimensions.max(PLANE)).for_each(&mut push);
             push(wide);
             push(wide * wide / (s(origin.core) + variance));
         }
@@ -114,29 +111,21 @@ impl Bearings {
     /// Turns the sums `N_i / S_i` of the places from block `first` on into the exponents `power log2(N_i / S_i) + log2 B_i`, and
     /// returns the largest, and the largest of those whose sums may have been cut off.
     #[inline(never)]
-    pub fn exponents(&self, first: usize, way: &Way, sums: &mut [Block]) -> (f64, f64) {
-        let bearings = self.blocks.get(first * (self.dimensions + 2)..).unwrap_or_default();
-        match self.dimensions {
-            1 => exponents::<1, 3>(bearings.as_chunks().0, way, sums),
-            2 => exponents::<2, 4>(bearings.as_chunks().0, way, sums),
-            _ => exponents::<3, 5>(bearings.as_chunks().0, way, sums),
+    pub fn exponents(&self, dimensions: usize, first: usize, way: &Way, sums: &mut [Block]) -> (f64, f64) {
+        let bearings = self.blocks.get(first * (dimensions.max(PLANE) + 2)..).unwrap_or_default();
+        match dimensions {
+            3 => exponents::<3, 5>(bearings.as_chunks().0, way, sums),
+            _ => exponents::<2, 4>(bearings.as_chunks().0, way, sums),
         }
     }
 }
 
-/// `(trace S - u'S u) / (d - 1)` along the unit vector `u`, multiplied out, so that nothing large is subtracted; zero on a line.
+/// `trace S - u'S u` along the unit vector `u`, multiplied out, so that nothing large is subtracted. On a line it is zero.
 #[inline(always)]
-fn across<const D: usize>([xx, xy, yy, xz, yz, zz]: &Symmetric<Lanes>, [x, y, z]: [Lanes; AXES]) -> Lanes {
-    if D == 1 {
-        return Lanes::splat(0.0);
-    }
-    let (a, b, mixed) = (x * x, y * y, *xy * x * y);
-    let plane = *xx * b + *yy * a - (mixed + mixed);
-    if D == 2 {
-        return plane;
-    }
-    let mixed = z * (*xz * x + *yz * y);
-    Lanes::splat(0.5) * (plane + (*xx + *yy) * z * z + *zz * (a + b) - (mixed + mixed))
+fn across([xx, xy, yy, xz, yz, zz]: &Symmetric<Lanes>, [x, y, z]: &[Lanes; AXES]) -> Lanes {
+    let (x, y, z) = (*x, *y, *z);
+    let mixed = *xy * x * y + *xz * x * z + *yz * y * z;
+    *xx * (y * y + z * z) + *yy * (x * x + z * z) + *zz * (x * x + y * y) - (mixed + mixed)
 }
 
 #[inline(always)]

@@ -6,11 +6,13 @@
 
 pub mod axes;
 pub mod bearings;
+pub mod constant_velocity;
 pub mod coupled;
 pub mod dense;
 pub mod endpoints;
 pub mod layout;
 pub mod mixture;
+pub mod pairs;
 pub mod ratios;
 pub mod small_gaussian;
 pub mod start;

@@ -14,7 +14,7 @@
 mod density;
 mod terms;
 
-pub use density::{Density, SharedDensity};
+pub use density::{Densities, Density, own_sums, shared_sums};
 pub use terms::{Ball, Ellipsoid, Own};
 
 use super::vectors::{Block, Lanes, Shift, WIDTH};
@@ -181,7 +181,7 @@ macro_rules! sums {
     )*};
 }
 
-sums!(Ball, Ellipsoid, Own, Density, SharedDensity);
+sums!(Ball, Ellipsoid, Own);
 
 #[cfg(test)]
 mod tests {

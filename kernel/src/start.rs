@@ -14,9 +14,14 @@ use crate::vectors::{Block, Lanes, Shift};
 /// Powers of two beyond this leave too little room for the rest of a product.
 const MODERATE: f64 = 288.0;
 
+/// Products beyond these have no inverse, or will soon have none.
+const RANGE: [f64; 2] = [1e-280, 1e280];
+
 /// The numbers of the equations.
 #[derive(Clone, Copy, Debug)]
 pub struct StartDensity {
+    /// How many axes there are.
+    pub dimensions: usize,
     /// Where the movement began.
     pub start: [f64; AXES],
     /// `log2` of the volume.
@@ -37,54 +42,54 @@ impl StartDensity {
     #[inline(never)]
     pub fn evaluate(
         &self,
-        dimensions: usize,
         places: &Places<'_>,
         covariance: Option<&Symmetric>,
         over_start: &mut [Block],
         priors: &mut [Block],
     ) -> bool {
-        match dimensions {
-            1 => self.over::<1>(places, covariance, over_start, priors),
-            2 => self.over::<2>(places, covariance, over_start, priors),
-            _ => self.over::<3>(places, covariance, over_start, priors),
-        }
-    }
-
-    #[inline(always)]
-    fn over<const D: usize>(
-        &self,
-        places: &Places<'_>,
-        covariance: Option<&Symmetric>,
-        over_start: &mut [Block],
-        priors: &mut [Block],
-    ) -> bool {
-        let (s, none) = (Lanes::splat, Shift::by(0.0));
-        let mut largest = s(0.0);
+        let s = Lanes::splat;
+        let (mut largest, mut least_volume, mut most_sides) = (s(0.0), s(f64::MAX), s(0.0));
         for (i, (over_start, prior)) in over_start.iter_mut().zip(priors).enumerate() {
             let (mut square, mut sides, mut volume) = (s(0.0), s(0.0), s(1.0));
-            for axis in 0..D {
-                let offset = Lanes::load(&places.coordinates[axis][i]) - s(self.start[axis]);
+            for axis in 0..self.dimensions.min(AXES) {
+                let at = |list: &[Block]| list.get(i).map_or(s(0.0), Lanes::load);
+                let offset = at(places.coordinates[axis]) - s(self.start[axis]);
                 let variance = match covariance {
                     Some(covariance) => s(covariance[[0, 2, 5][axis]]),
-                    None => Lanes::load(&places.variances[axis][i]),
+                    None => at(places.variances[axis]),
                 };
-                let side = s(12.0) * variance;
-                let offset = offset * offset;
+                let (side, offset) = (s(12.0) * variance, offset * offset);
                 square = square + offset;
                 sides = sides + offset / side;
                 volume = volume * side;
             }
-            let log_volume = volume.log2();
-            sides = sides + (s(-1.0 / D as f64) * log_volume).exp2(&none);
-            let over = s(self.log_volume) + s(self.half_exponent) * (square + s(self.core)).log2();
-            let near = s(self.share) * Lanes::log2_ratio(sides, sides + s(self.near));
-            over.exp2(&none).store(over_start);
-            (Lanes::load(prior) * near.exp2(&none)).store(prior);
-            // a third, since these are not multiplied with one another
-            for log in [over, near, s(0.3) * log_volume, s(0.3) * sides.log2()] {
-                largest = (log * log).at_least(largest);
-            }
+            least_volume = volume.at_most(least_volume);
+            most_sides = sides.at_least(most_sides);
+            sides = sides
+                + match self.dimensions {
+                    1 => s(1.0) / volume,
+                    2 => s(1.0) / volume.sqrt(),
+                    _ => exp2(s(-1.0 / 3.0) * log2(volume, s(1.0))),
+                };
+            let over = s(self.log_volume) + s(self.half_exponent) * log2(square + s(self.core), s(1.0));
+            let near = s(self.share) * log2(sides, sides + s(self.near));
+            exp2(over).store(over_start);
+            (Lanes::load(prior) * exp2(near)).store(prior);
+            largest = (near * near).at_least((over * over).at_least(largest));
         }
-        largest.most() < MODERATE * MODERATE
+        let [least, most] = RANGE;
+        largest.most() < MODERATE * MODERATE && most_sides.most() < most && least_volume.least() > least
     }
+}
+
+// not inlined: what is done once a movement need not be fast four times
+
+#[inline(never)]
+fn log2(a: Lanes, b: Lanes) -> Lanes {
+    Lanes::log2_ratio(a, b)
+}
+
+#[inline(never)]
+fn exp2(x: Lanes) -> Lanes {
+    x.exp2(&Shift::by(0.0))
 }

@@ -47,6 +47,19 @@ const SCALE: f64 = 0.803_133_891_908_858_8;
 /// The power of two in `1 / c^8`.
 const LEADING: f64 = 245.0;
 
+/// `1.5 * 2^52`: added to a number below `2^51`, it leaves the nearest integer in the last bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// The polynomial of degree 5 nearest to `2^(r/16)` for `|r| <= 1/2`, a relative 1e-14, with one pair of its complex roots about
+/// an integer: with `u = r + 38` it is `c (u^2 + p) ((u + s)^2 + q) (u + t)`, and these are `p`, `s`, `q` and `t`.
+const DECAY: [f64; 4] = [1_528.821_387_18, -43.612_337_481_758_914, 5_214.364_382_989_22, 12.260_150_410_731_754];
+
+/// The integer.
+const DECAY_CENTRE: f64 = 38.0;
+
+/// `c^16`.
+const DECAY_SCALE: f64 = 4.927_738_525_486_266e-143;
+
 /// `log2(a / b) = s P(s^2)` with `s = (a - b) / (a + b)`, for `|s|` up to 0.2004, to a relative 2e-15.
 const LOGARITHM: [f64; 7] = [
     2.885_390_081_777_931,
@@ -162,6 +175,15 @@ impl Lanes {
         block.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The smallest of all four; of NaN none.
+    #[inline(always)]
+    #[must_use]
+    pub fn least(self) -> f64 {
+        let mut block = [0.0; WIDTH];
+        self.store(&mut block);
+        block.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     /// `log2` of each, to an absolute 1e-15 where that is less than 4; of normal numbers above zero.
     #[inline(always)]
     #[must_use]
@@ -217,6 +239,32 @@ impl Lanes {
         let p = p * p;
         let p = p * p;
         Self(p.0.add_to_exponent(integer.0))
+    }
+
+    /// `2^x` of each that is not above zero, to a relative 2e-13, yet to be [`Lanes::scaled_decay`]: as [`Lanes::unscaled_exp2`], with
+    /// five operations less. One of the polynomial's centres is an integer, so that rounding subtracts it.
+    #[inline(always)]
+    #[must_use]
+    pub fn unscaled_decay(self) -> Self {
+        let s = Self::splat;
+        let x = self.at_least(s(-MOST_EXPONENT));
+        let integer = x + s(ROUNDER);
+        let r = x - (integer - s(ROUNDER + DECAY_CENTRE));
+        let [first, apart, second, root] = DECAY;
+        let other = r + s(apart);
+        let p = (r * r + s(first)) * (other * other + s(second)) * (r + s(root));
+        let p = p * p;
+        let p = p * p;
+        let p = p * p;
+        let p = p * p;
+        Self(p.0.add_to_exponent(integer.0))
+    }
+
+    /// What [`Lanes::unscaled_decay`] returns, or a sum of such, as powers of two.
+    #[inline(always)]
+    #[must_use]
+    pub fn scaled_decay(self) -> Self {
+        self * Self::splat(DECAY_SCALE)
     }
 
     /// What [`Lanes::unscaled_exp2`] returns, or a sum of such, as powers of two.
@@ -289,11 +337,7 @@ impl Shift {
     #[must_use]
     pub fn by(x: f64) -> Self {
         let shift = x.round_ties_even().clamp(-MOST_SHIFT, MOST_SHIFT);
-        Self {
-            rounder: 6_755_399_441_055_744.0 - LEADING - shift,
-            least: shift - MOST_EXPONENT,
-            most: shift + MOST_EXPONENT,
-        }
+        Self { rounder: ROUNDER - LEADING - shift, least: shift - MOST_EXPONENT, most: shift + MOST_EXPONENT }
     }
 }
 

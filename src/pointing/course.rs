@@ -7,8 +7,10 @@ use super::parameters::PointingConstants;
 use super::{Space, Vector, dot, minus, vector};
 use crate::error::Result;
 use crate::value::{Node, Value};
+use whither_kernel::constant_velocity::ConstantVelocity;
 use whither_kernel::mixture::AXES;
-use whither_kernel::small_gaussian::axis_filter::{AxisFilter, AxisFilters, Step};
+use whither_kernel::pairs::Motion;
+use whither_kernel::small_gaussian::axis_filter::{AxisFilter, AxisFilters};
 
 /// The shortest step that the filter takes, in seconds: nearly equal times must not make the velocity certain.
 const SHORTEST_STEP: f64 = 1e-4;
@@ -32,36 +34,6 @@ fn begin(position: f64, variance: f64, speed_variance: f64) -> Axis {
         root[row][column] = entry;
     }
     Axis::new(2, [position, 0.0], [position, 0.0], root)
-}
-
-/// Constant velocity over so many seconds, with white noise of this spectral density.
-struct ConstantVelocity {
-    seconds: f64,
-    noise: f64,
-}
-
-impl Step<2, 4> for ConstantVelocity {
-    #[inline(always)]
-    fn states(&self) -> usize {
-        2
-    }
-
-    #[inline(always)]
-    fn mean(&self, [position, velocity]: &mut [f64; 2]) {
-        *position += self.seconds * *velocity;
-    }
-
-    #[inline(always)]
-    fn root(&self, [position, velocity]: &mut [[f64; 4]; 2]) {
-        for q in 0..4 {
-            position[q] += self.seconds * velocity[q];
-        }
-    }
-
-    fn noise_root(&self) -> [[f64; 2]; 2] {
-        let scale = (self.noise * self.seconds).sqrt();
-        [[scale * (self.seconds / 3f64.sqrt()), 0.0], [scale * 0.75f64.sqrt(), scale * 0.5]]
-    }
 }
 
 /// One observation; none marks an axis that is missing.
@@ -189,7 +161,7 @@ impl<S: Space> Course<S> {
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
         let seconds = step.max(SHORTEST_STEP);
-        self.axes.advance(|_| Some(ConstantVelocity { seconds, noise }), &position, &variances, |_, _| {});
+        ConstantVelocity { seconds, noise }.advance(&mut self.axes, &position, &variances);
         let way = minus(&self.position(), &self.start);
         self.farthest = self.farthest.max(dot(&way, &way));
         self.elapsed = elapsed;
@@ -222,6 +194,20 @@ impl<S: Space> Course<S> {
     pub fn position(&self) -> Vector {
         // no array map: at the level for size each entry would be a call
         [self.axes[0].now[0], self.axes[1].now[0], self.axes[2].now[0]]
+    }
+
+    /// What the endpoint depends on.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        let variances = |axis: usize| {
+            let [[pp, pv], [_, vv]] = self.axes[axis].covariance;
+            [pp, pv + pv, vv]
+        };
+        Motion {
+            position: self.position(),
+            velocity: self.velocity(),
+            variances: [variances(0), variances(1), variances(2)],
+        }
     }
 
     /// The velocity now.

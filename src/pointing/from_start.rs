@@ -65,6 +65,7 @@ impl FromStart {
         onset: Onset,
     ) {
         let density = StartDensity {
+            dimensions,
             start: *start,
             log_volume: log_volume * LOG2_E,
             core: parameters.start.core.powi(2) + onset.shortfall.powi(2),
@@ -86,9 +87,9 @@ impl FromStart {
             let (places, covariance) = (targets.places(&class.blocks), class.covariance.as_ref());
             let (over_start, priors) =
                 (&mut self.over_start[class.blocks.clone()], &mut self.priors[class.blocks.clone()]);
-            self.moderate &= density.evaluate(dimensions, &places, covariance, over_start, priors);
+            self.moderate &= density.evaluate(&places, covariance, over_start, priors);
             if is_new {
-                self.bearings.extend(&places, covariance, &origin);
+                self.bearings.extend(dimensions, &places, covariance, &origin);
             }
         }
     }

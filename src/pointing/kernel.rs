@@ -12,7 +12,7 @@ use super::endpoint::Nodes;
 use super::from_start::FromStart;
 use super::targets::Targets;
 use whither_kernel::bearings::Way;
-use whither_kernel::mixture::{Density, SharedDensity, Sums};
+use whither_kernel::mixture::{Densities, own_sums, shared_sums};
 use whither_kernel::vectors::{Block, raise};
 
 /// What is this many powers of two below the most probable does not matter.
@@ -21,8 +21,7 @@ const NOTHING: f64 = 60.0;
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    shared: Vec<SharedDensity>,
-    densities: Vec<Density>,
+    densities: Densities,
     /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
 }
@@ -49,24 +48,21 @@ impl Work {
         if !from_start.moderate {
             return None;
         }
-        let Self { shared, densities, aside } = self;
+        let Self { densities, aside } = self;
         let weights = targets.layout().buffer(aside, into);
         let d = now.nodes.dimensions();
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
         for class in targets.classes() {
             let (places, blocks) = (targets.places(&class.blocks), class.blocks.clone());
             let (over_start, weights) = (&from_start.over_start[blocks.clone()], &mut weights[blocks.clone()]);
-            match &class.covariance {
-                Some(covariance) => {
-                    now.nodes.shared_densities(covariance, shared);
-                    SharedDensity::weighted_sums(d, shared, &places, 0.0, over_start, weights);
-                }
-                None => {
-                    now.nodes.densities(densities);
-                    Density::weighted_sums(d, densities, &places, 0.0, over_start, weights);
-                }
+            if !now.nodes.densities(class.covariance.as_ref(), densities) {
+                return None;
             }
-            let (best, worst) = from_start.bearings.exponents(blocks.start, now.way, weights);
+            match &class.covariance {
+                Some(_) => shared_sums(d, densities, &places, over_start, weights),
+                None => own_sums(d, densities, &places, over_start, weights),
+            }
+            let (best, worst) = from_start.bearings.exponents(d, blocks.start, now.way, weights);
             (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
         let shift = most.round();

@@ -4,8 +4,6 @@ use super::Vector;
 use super::entry_time::EntryTime;
 use crate::error::{Code, Error, Result};
 use nalgebra::DMatrix;
-use whither_kernel::mixture::HALF_LOG2_E;
-use whither_kernel::vectors::{Block, Lanes, raise};
 
 /// The constants of the pointing model. Lengths are in the unit of the positions, times in seconds, angles in radians; the default is
 /// for a mouse on a screen, in px, fitted on recorded movements of 149 people.
@@ -166,24 +164,6 @@ impl TimeToGo {
         let (from, to) = (self.from.ln(), self.to.ln());
         let last = self.points - 1;
         (0..self.points).map(|n| (from + (to - from) * n as f64 / last as f64).exp()).collect()
-    }
-
-    /// The weights at a speed of the nodes with these logarithms over that of the median; they sum to one. `ones` has zeros
-    /// where there is no node.
-    pub(crate) fn weights(&self, log_nodes: &[Block], ones: &[Block], speed: f64, into: &mut [Block]) {
-        let s = Lanes::splat;
-        let (middle, over) = (s(self.speed_exponent * ((speed + 50.0) / 1000.0).ln()), s(1.0 / self.spread));
-        let mut top = s(f64::MIN);
-        for (exponent, log) in into.iter_mut().zip(log_nodes) {
-            let apart = (Lanes::load(log) - middle) * over;
-            let density = s(-HALF_LOG2_E) * apart * apart;
-            density.store(exponent);
-            top = density.at_least(top);
-        }
-        let over = s(1.0 / raise(into, ones, top.most()));
-        for weight in into {
-            (Lanes::load(weight) * over).store(weight);
-        }
     }
 }
 

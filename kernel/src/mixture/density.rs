@@ -1,141 +1,108 @@
-//! One Gaussian density whose axes are correlated: for places that share an endpoint's covariance, and for places each of
+//! Sums of Gaussian densities whose axes are correlated: for places that share an endpoint's covariance, and for places each of
 //! which has its own variances.
+//!
+//! Two densities have one mean: what is made of a place's offset from it, the products of its components, is made once for
+//! both. A line is a plane in which every place and mean has the coordinate zero and every density the variance one.
 
-use super::{AXES, HALF_LOG2_E, Places, Term, at};
-use crate::vectors::Lanes;
+use super::{AXES, HALF_LOG2_E, Places};
+use crate::small_gaussian::Symmetric;
+use crate::vectors::{Block, Lanes};
 
-/// A Gaussian density, the covariance that all places share included.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SharedDensity {
-    /// The mean.
-    pub mean: [f64; AXES],
-    /// The precision times `-log2(e)/2`, what is not on the diagonal doubled: xx, xy, yy, xz, yz, zz.
-    pub curvature: [f64; 6],
-    /// What multiplies the power, the normaliser.
-    pub factor: f64,
-}
+/// Densities, two about each mean.
+pub type Densities = Vec<([f64; AXES], [Density; 2])>;
 
-impl SharedDensity {
-    #[inline(always)]
-    fn offset(&self, axis: usize, coordinates: &[Lanes]) -> Lanes {
-        coordinates[axis] - Lanes::splat(self.mean[axis])
-    }
-
-    #[inline(always)]
-    fn times(&self, entry: usize, offset: Lanes) -> Lanes {
-        Lanes::splat(self.curvature[entry]) * offset
-    }
-}
-
-macro_rules! shared {
-    ($d:literal: $($axis:literal)+, |$term:ident, $coordinates:ident| $exponent:expr) => {
-        impl Term<$d> for SharedDensity {
-            /// Coordinates.
-            type Place = [Lanes; $d];
-
-            #[inline(always)]
-            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
-                Some([$(at(places.coordinates[$axis], i)?),+])
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, $coordinates: &Self::Place) -> (Lanes, Lanes) {
-                let $term = self;
-                ($exponent, Lanes::splat(self.factor))
-            }
-        }
-    };
-}
-
-shared!(1: 0, |term, coordinates| {
-    let x = term.offset(0, coordinates);
-    x * term.times(0, x)
-});
-shared!(2: 0 1, |term, coordinates| {
-    let (x, y) = (term.offset(0, coordinates), term.offset(1, coordinates));
-    x * (term.times(0, x) + term.times(1, y)) + y * term.times(2, y)
-});
-shared!(3: 0 1 2, |term, coordinates| {
-    let (x, y, z) = (term.offset(0, coordinates), term.offset(1, coordinates), term.offset(2, coordinates));
-    let across = term.times(1, y) + term.times(3, z);
-    x * (term.times(0, x) + across) + y * (term.times(2, y) + term.times(4, z)) + z * term.times(5, z)
-});
-
-/// A Gaussian density, to each of whose variances every place adds its own.
+/// A Gaussian density without its mean.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Density {
-    /// The mean.
-    pub mean: [f64; AXES],
-    /// The variances.
-    pub variance: [f64; AXES],
-    /// The covariances of the axes 0 and 1, 0 and 2, 1 and 2.
-    pub covariance: [f64; AXES],
-    /// What multiplies the density, `(2 pi)^(-d/2)` included.
+    /// With [`shared_sums`] its curvature, the precision times `-log2(e)/2` with what is not on the diagonal doubled; with
+    /// [`own_sums`] its covariance, to whose variances every place adds its own: xx, xy, yy, xz, yz, zz.
+    pub form: Symmetric,
+    /// What multiplies the power: with [`shared_sums`] all of the normaliser, with [`own_sums`] all but the determinant.
     pub factor: f64,
 }
 
-impl Density {
-    #[inline(always)]
-    fn axis(&self, axis: usize, coordinate: Lanes, own: Lanes) -> (Lanes, Lanes) {
-        (coordinate - Lanes::splat(self.mean[axis]), Lanes::splat(self.variance[axis]) + own)
-    }
-
-    /// The exponent and the factor, of the squared distance times the determinant, and the determinant.
-    #[inline(always)]
-    fn over(&self, square: Lanes, determinant: Lanes) -> (Lanes, Lanes) {
-        let inverse = Lanes::splat(1.0) / determinant;
-        (Lanes::splat(-HALF_LOG2_E) * (square * inverse), Lanes::splat(self.factor) * inverse.sqrt())
-    }
+/// The exponent, in base 2 and never above zero, and the factor before the power, of a density whose curvature all places share.
+#[inline(always)]
+fn shared<const D: usize>(density: &Density, products: &Symmetric<Lanes>, _: &[Lanes; AXES]) -> (Lanes, Lanes) {
+    let term = |entry: usize| Lanes::splat(density.form[entry]) * products[entry];
+    let plane = term(0) + term(1) + term(2);
+    let exponent = if D > 2 { plane + (term(3) + term(4) + term(5)) } else { plane };
+    (exponent, Lanes::splat(density.factor))
 }
 
-macro_rules! place {
-    ($d:literal: $($axis:literal)+) => {
-        /// Coordinates, and their variances.
-        type Place = ([Lanes; $d], [Lanes; $d]);
-
-        #[inline(always)]
-        fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
-            Some(([$(at(places.coordinates[$axis], i)?),+], [$(at(places.variances[$axis], i)?),+]))
-        }
-    };
-}
-
-impl Term<1> for Density {
-    place!(1: 0);
-
-    #[inline(always)]
-    fn exponent_and_factor(&self, (coordinates, variances): &Self::Place) -> (Lanes, Lanes) {
-        let (x, xx) = self.axis(0, coordinates[0], variances[0]);
-        self.over(x * x, xx)
-    }
-}
-
-impl Term<2> for Density {
-    place!(2: 0 1);
-
-    #[inline(always)]
-    fn exponent_and_factor(&self, (coordinates, variances): &Self::Place) -> (Lanes, Lanes) {
-        let (x, xx) = self.axis(0, coordinates[0], variances[0]);
-        let (y, yy) = self.axis(1, coordinates[1], variances[1]);
-        let xy = Lanes::splat(self.covariance[0]);
-        let mixed = xy * x * y;
-        self.over(yy * x * x - (mixed + mixed) + xx * y * y, xx * yy - xy * xy)
-    }
-}
-
-impl Term<3> for Density {
-    place!(3: 0 1 2);
-
-    #[inline(always)]
-    fn exponent_and_factor(&self, (coordinates, variances): &Self::Place) -> (Lanes, Lanes) {
-        let (x, xx) = self.axis(0, coordinates[0], variances[0]);
-        let (y, yy) = self.axis(1, coordinates[1], variances[1]);
-        let (z, zz) = self.axis(2, coordinates[2], variances[2]);
-        let [xy, xz, yz] = self.covariance.map(Lanes::splat);
+/// The same of a density to whose variances every place adds its own.
+#[inline(always)]
+fn own<const D: usize>(density: &Density, products: &Symmetric<Lanes>, own: &[Lanes; AXES]) -> (Lanes, Lanes) {
+    let entry = |i: usize| Lanes::splat(density.form[i]);
+    let [x, x_y, y, x_z, y_z, z] = *products;
+    let (xx, xy, yy) = (entry(0) + own[0], entry(1), entry(2) + own[1]);
+    let (square, determinant) = if D > 2 {
+        let (xz, yz, zz) = (entry(3), entry(4), entry(5) + own[2]);
         // the adjugate's upper triangle
         let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
         let (e, f, g) = (xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy);
-        let mixed = b * x * y + c * x * z + f * y * z;
-        self.over(a * x * x + e * y * y + g * z * z + (mixed + mixed), xx * a + xy * b + xz * c)
+        let mixed = b * x_y + c * x_z + f * y_z;
+        (a * x + e * y + g * z + (mixed + mixed), xx * a + xy * b + xz * c)
+    } else {
+        let mixed = xy * x_y;
+        (yy * x - (mixed + mixed) + xx * y, xx * yy - xy * xy)
+    };
+    let inverse = Lanes::splat(1.0) / determinant;
+    (Lanes::splat(-HALF_LOG2_E) * square * inverse, Lanes::splat(density.factor) * inverse.sqrt())
+}
+
+/// Writes `factor_i sum_n f_n 2^e_n(i)` for every place; exponents are cut at -960.
+#[inline(always)]
+fn sums<const D: usize>(
+    densities: &[([f64; AXES], [Density; 2])],
+    evaluate: impl Fn(&Density, &Symmetric<Lanes>, &[Lanes; AXES]) -> (Lanes, Lanes),
+    places: &Places<'_>,
+    factors: &[Block],
+    into: &mut [Block],
+) {
+    let zero = Lanes::splat(0.0);
+    for (i, (factor, into)) in factors.iter().zip(into).enumerate() {
+        let at = |list: &[Block]| list.get(i).map_or(zero, Lanes::load);
+        let [x, y, z] = places.coordinates.map(at);
+        let variances = places.variances.map(at);
+        let mut sum = zero;
+        for (mean, [first, second]) in densities {
+            let [x, y] = [x - Lanes::splat(mean[0]), y - Lanes::splat(mean[1])];
+            let mut products = [x * x, x * y, y * y, zero, zero, zero];
+            if D > 2 {
+                let z = z - Lanes::splat(mean[2]);
+                (products[3], products[4], products[5]) = (x * z, y * z, z * z);
+            }
+            let (exponent, factor) = evaluate(first, &products, &variances);
+            sum = sum + factor * exponent.unscaled_decay();
+            let (exponent, factor) = evaluate(second, &products, &variances);
+            sum = sum + factor * exponent.unscaled_decay();
+        }
+        (sum * Lanes::load(factor).scaled_decay()).store(into);
+    }
+}
+
+/// Writes `factor_i sum_n f_n 2^e_n(i)` for every place, in so many dimensions, for places that share the covariance of their
+/// endpoints. Exponents are cut at -960.
+#[inline(never)]
+pub fn shared_sums(
+    dimensions: usize,
+    densities: &Densities,
+    places: &Places<'_>,
+    factors: &[Block],
+    into: &mut [Block],
+) {
+    match dimensions {
+        3 => sums::<3>(densities, shared::<3>, places, factors, into),
+        _ => sums::<2>(densities, shared::<2>, places, factors, into),
+    }
+}
+
+/// The same for places whose endpoints have variances of their own.
+#[inline(never)]
+pub fn own_sums(dimensions: usize, densities: &Densities, places: &Places<'_>, factors: &[Block], into: &mut [Block]) {
+    match dimensions {
+        3 => sums::<3>(densities, own::<3>, places, factors, into),
+        _ => sums::<2>(densities, own::<2>, places, factors, into),
     }
 }
