@@ -7,12 +7,8 @@
 //! ```
 //! All but `t` follows from the start: it is computed once a movement, and a step has one root and two divisions for each place.
 
-use crate::mixture::{AXES, Places};
-use crate::small_gaussian::Symmetric;
+use crate::mixture::AXES;
 use crate::vectors::{Block, Lanes};
-
-/// The variance of a direction without information. The square of none is infinite.
-const NO_DIRECTION: f64 = 1e100;
 
 /// Where `log2` of a sum is below this, it may have been cut off.
 const CERTAIN: f64 = -500.0;
@@ -23,24 +19,10 @@ const PLANE: usize = 2;
 /// Much more than the difference of any two exponents.
 const FAR: f64 = 1e9;
 
-/// What is known of the direction of places, block by block: the unit vector, zero at the start itself, then `w + z` and
-/// `(w + z)^2 / (c + z)`.
-///
-/// The number of dimensions is an argument wherever it is needed: where it is a constant, nothing is compiled for others.
-#[derive(Clone, Debug)]
-pub struct Bearings {
-    blocks: Vec<Block>,
-}
-
-/// The start of a movement, and the squares `w` and `c` of its angles.
-#[derive(Clone, Copy, Debug)]
-pub struct Origin {
-    /// Where it began.
-    pub start: [f64; AXES],
-    /// `w`.
-    pub wide: f64,
-    /// `c`.
-    pub core: f64,
+/// How many numbers there are of each place.
+#[must_use]
+pub fn numbers(dimensions: usize) -> usize {
+    dimensions.max(PLANE) + 2
 }
 
 /// How the movement has gone on since.
@@ -54,82 +36,21 @@ pub struct Way {
     pub power: f64,
 }
 
-impl Bearings {
-    /// Room for so many blocks of places.
-    #[must_use]
-    pub fn with_capacity(dimensions: usize, blocks: usize) -> Self {
-        Self { blocks: Vec::with_capacity(blocks * (dimensions.max(PLANE) + 2)) }
-    }
-
-    /// Forgets all places.
-    pub fn clear(&mut self) {
-        self.blocks.clear();
-    }
-
-    /// Whether there is none yet.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.blocks.is_empty()
-    }
-
-    /// Appends places; `covariance` is that of the endpoints of all of them, without one each has its own variances.
-    #[inline(never)]
-    pub fn extend(&mut self, dimensions: usize, places: &Places<'_>, covariance: Option<&Symmetric>, origin: &Origin) {
-        let s = Lanes::splat;
-        let share = s(if dimensions > 2 { 0.5 } else { 1.0 });
-        let mut push = |lanes: Lanes| {
-            let mut block = Block::default();
-            lanes.store(&mut block);
-            self.blocks.push(block);
-        };
-        for i in 0..places.coordinates[0].len() {
-            let at = |list: &[Block]| list.get(i).map_or(s(0.0), Lanes::load);
-            let offset = |axis: usize| at(places.coordinates[axis]) - s(origin.start[axis]);
-            let [x, y, z] = [offset(0), offset(1), offset(2)];
-            let square = x * x + y * y + z * z;
-            let over = s(1.0) / square.at_least(s(f64::MIN_POSITIVE)).sqrt();
-            let unit = [x * over, y * over, z * over];
-            let covariance = match covariance {
-                Some(covariance) => covariance.map(s),
-                None => {
-                    let own = |axis: usize| at(places.variances[axis]);
-                    [own(0), s(0.0), own(1), s(0.0), s(0.0), own(2)]
-                }
-            };
-            // what is at the start itself lies in no direction
-            let nowhere = (s(1.0) - square * s(f64::MIN_POSITIVE.recip())).at_least(s(0.0));
-            // distance / (distance^2 + 1)
-            let shrunk = square * over / (square + s(1.0));
-            let variance = share * across(&covariance, &unit) * shrunk * shrunk + nowhere * s(NO_DIRECTION);
-            let wide = s(origin.wide) + variance;
-            unit.into_iter().take(dimensions.max(PLANE)).for_each(&mut push);
-            push(wide);
-            push(wide * wide / (s(origin.core) + variance));
-        }
-    }
-
-    /// Turns the sums `N_i / S_i` of the places from block `first` on into the exponents `power log2(N_i / S_i) + log2 B_i`, and
-    /// returns the largest, and the largest of those whose sums may have been cut off.
-    #[inline(never)]
-    pub fn exponents(&self, dimensions: usize, first: usize, way: &Way, sums: &mut [Block]) -> (f64, f64) {
-        let bearings = self.blocks.get(first * (dimensions.max(PLANE) + 2)..).unwrap_or_default();
-        match dimensions {
-            3 => exponents::<3, 5>(bearings.as_chunks().0, way, sums),
-            _ => exponents::<2, 4>(bearings.as_chunks().0, way, sums),
-        }
+/// Turns the sums `N_i / S_i` of places into the exponents `power log2(N_i / S_i) + log2 B_i`, and returns the largest, and the
+/// largest of those whose sums may have been cut off.
+///
+/// Of each block of places `bearings` has [`numbers`] blocks: the unit vectors towards them, zero at the start itself, then `w + z`
+/// and `(w + z)^2 / (c + z)`.
+#[inline(never)]
+pub fn exponents(dimensions: usize, bearings: &[Block], way: &Way, sums: &mut [Block]) -> (f64, f64) {
+    match dimensions {
+        3 => over::<3, 5>(bearings.as_chunks().0, way, sums),
+        _ => over::<2, 4>(bearings.as_chunks().0, way, sums),
     }
 }
 
-/// `trace S - u'S u` along the unit vector `u`, multiplied out, so that nothing large is subtracted. On a line it is zero.
 #[inline(always)]
-fn across([xx, xy, yy, xz, yz, zz]: &Symmetric<Lanes>, [x, y, z]: &[Lanes; AXES]) -> Lanes {
-    let (x, y, z) = (*x, *y, *z);
-    let mixed = *xy * x * y + *xz * x * z + *yz * y * z;
-    *xx * (y * y + z * z) + *yy * (x * x + z * z) + *zz * (x * x + y * y) - (mixed + mixed)
-}
-
-#[inline(always)]
-fn exponents<const D: usize, const NUMBERS: usize>(
+fn over<const D: usize, const NUMBERS: usize>(
     bearings: &[[Block; NUMBERS]],
     way: &Way,
     sums: &mut [Block],

@@ -15,6 +15,5 @@ pub mod mixture;
 pub mod pairs;
 pub mod ratios;
 pub mod small_gaussian;
-pub mod start;
 pub mod van_loan;
 pub mod vectors;

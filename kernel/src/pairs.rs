@@ -7,7 +7,7 @@
 //! and that of its own, which is that of a class of places or of each place alone. On a line, a plane in which nothing lies beside
 //! it, the second axis has the variance one.
 
-use crate::mixture::{AXES, Densities, Density, HALF_LOG2_E};
+use crate::mixture::{AXES, Densities, HALF_LOG2_E};
 use crate::small_gaussian::{Symmetric, inverse};
 use crate::vectors::{Block, Lanes, Number, WIDTH, raise};
 use std::f64::consts::LN_2;
@@ -112,7 +112,7 @@ impl TimesToGo {
         }
     }
 
-    /// The pairs with these noises as densities: where `own` is the covariance that the endpoints of all places share, for
+    /// The pairs with these noises as densities, of which `into` has room for two for each time and two noises: where `own` is the covariance that the endpoints of all places share, for
     /// [`crate::mixture::shared_sums`], else for [`crate::mixture::own_sums`]. Returns whether all digits of their determinants are
     /// right.
     #[inline(never)]
@@ -122,9 +122,8 @@ impl TimesToGo {
         motion: &Motion,
         noises: &[[f64; 2]],
         own: Option<&Symmetric>,
-        into: &mut Densities,
+        into: &mut [Densities],
     ) -> bool {
-        into.resize(self.points * noises.len().div_ceil(2), ([0.0; AXES], [Density::default(); 2]));
         match dimensions {
             3 => self.write::<3>(3, motion, noises, own, into),
             d => self.write::<2>(d, motion, noises, own, into),
@@ -138,7 +137,7 @@ impl TimesToGo {
         motion: &Motion,
         noises: &[[f64; 2]],
         own: Option<&Symmetric>,
-        into: &mut Densities,
+        into: &mut [Densities],
     ) -> bool {
         let s = Lanes::splat;
         let mut least = s(1.0);

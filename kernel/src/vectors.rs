@@ -175,15 +175,6 @@ impl Lanes {
         block.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The smallest of all four; of NaN none.
-    #[inline(always)]
-    #[must_use]
-    pub fn least(self) -> f64 {
-        let mut block = [0.0; WIDTH];
-        self.store(&mut block);
-        block.into_iter().fold(f64::INFINITY, f64::min)
-    }
-
     /// `log2` of each, to an absolute 1e-15 where that is less than 4; of normal numbers above zero.
     #[inline(always)]
     #[must_use]

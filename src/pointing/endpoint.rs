@@ -98,7 +98,8 @@ impl<S: Space> Nodes<S> {
 
     /// The pairs as densities, for destinations whose endpoints have this covariance, or each its own variances; returns whether they
     /// have all digits.
-    pub fn densities(&self, own: Option<&Symmetric>, into: &mut Densities) -> bool {
+    pub fn densities(&self, own: Option<&Symmetric>, into: &mut Vec<Densities>) -> bool {
+        into.resize(self.times.times().len() * self.noises.len().div_ceil(2), Densities::default());
         self.times.densities(self.dimensions(), &self.motion, &self.noises, own, into)
     }
 }

@@ -83,7 +83,7 @@ impl<'a, S: Space> DirectionNow<'a, S> {
 
 /// `z`, the variance of the direction from the start to a target at `offset`.
 #[must_use]
-fn angular_variance(offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
+pub fn angular_variance(offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     if dimensions == 1 {
         return 0.0;
     }

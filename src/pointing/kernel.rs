@@ -11,7 +11,7 @@ use super::Space;
 use super::endpoint::Nodes;
 use super::from_start::FromStart;
 use super::targets::Targets;
-use whither_kernel::bearings::Way;
+use whither_kernel::bearings::{Way, exponents, numbers};
 use whither_kernel::mixture::{Densities, own_sums, shared_sums};
 use whither_kernel::vectors::{Block, raise};
 
@@ -21,7 +21,7 @@ const NOTHING: f64 = 60.0;
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    densities: Densities,
+    densities: Vec<Densities>,
     /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
 }
@@ -62,7 +62,7 @@ impl Work {
                 Some(_) => shared_sums(d, densities, &places, over_start, weights),
                 None => own_sums(d, densities, &places, over_start, weights),
             }
-            let (best, worst) = from_start.bearings.exponents(d, blocks.start, now.way, weights);
+            let (best, worst) = exponents(d, &from_start.bearings[blocks.start * numbers(d)..], now.way, weights);
             (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
         let shift = most.round();

@@ -11,7 +11,7 @@ use crate::math::gaussian::Gaussian;
 use crate::posterior::Shares;
 use nalgebra::{DMatrix, DVector};
 use whither_kernel::mixture::AXES;
-use whither_kernel::small_gaussian::triangularise;
+use whither_kernel::small_gaussian;
 
 /// The most components of a state: positions and velocities.
 const STATES: usize = 2 * AXES;
@@ -21,6 +21,12 @@ const SOURCES: usize = 6 * AXES;
 
 /// Linear functions of the sources, each of deviation one.
 type Rows = [[f64; SOURCES]; STATES + AXES];
+
+/// The lower triangle with the same square; a function of its own, as speed does not matter here.
+#[inline(never)]
+fn triangularise(a: &mut Rows, rows: usize, columns: usize) {
+    small_gaussian::triangularise(a, rows, columns);
+}
 
 /// The mean and the covariance of the state: positions, then velocities; components beyond twice the dimensions are zero.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use super::{AXES, HALF_LOG2_E, Places};
 use crate::small_gaussian::Symmetric;
 use crate::vectors::{Block, Lanes};
 
-/// Densities, two about each mean.
-pub type Densities = Vec<([f64; AXES], [Density; 2])>;
+/// Two densities about one mean.
+pub type Densities = ([f64; AXES], [Density; 2]);
 
 /// A Gaussian density without its mean.
 #[derive(Clone, Copy, Debug, Default)]
@@ -54,7 +54,7 @@ fn own<const D: usize>(density: &Density, products: &Symmetric<Lanes>, own: &[La
 /// Writes `factor_i sum_n f_n 2^e_n(i)` for every place; exponents are cut at -960.
 #[inline(always)]
 fn sums<const D: usize>(
-    densities: &[([f64; AXES], [Density; 2])],
+    densities: &[Densities],
     evaluate: impl Fn(&Density, &Symmetric<Lanes>, &[Lanes; AXES]) -> (Lanes, Lanes),
     places: &Places<'_>,
     factors: &[Block],
@@ -87,7 +87,7 @@ fn sums<const D: usize>(
 #[inline(never)]
 pub fn shared_sums(
     dimensions: usize,
-    densities: &Densities,
+    densities: &[Densities],
     places: &Places<'_>,
     factors: &[Block],
     into: &mut [Block],
@@ -100,7 +100,13 @@ pub fn shared_sums(
 
 /// The same for places whose endpoints have variances of their own.
 #[inline(never)]
-pub fn own_sums(dimensions: usize, densities: &Densities, places: &Places<'_>, factors: &[Block], into: &mut [Block]) {
+pub fn own_sums(
+    dimensions: usize,
+    densities: &[Densities],
+    places: &Places<'_>,
+    factors: &[Block],
+    into: &mut [Block],
+) {
     match dimensions {
         3 => sums::<3>(densities, own::<3>, places, factors, into),
         _ => sums::<2>(densities, own::<2>, places, factors, into),
