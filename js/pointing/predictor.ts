@@ -13,6 +13,8 @@ import { type PointerConstants, readConstants } from "./constants.js";
 import { fields, isAbsent, list, number, quotedSome, refuse, text } from "../core/read.js";
 import { type PointerTarget, readTargets, type Targets } from "./targets.js";
 
+const NOTHING = new Float64Array(0);
+
 /** The longest movement and the farthest forecast, in seconds. */
 const MOST_TIME = 1e12;
 
@@ -53,7 +55,7 @@ export interface PointerOptions {
 export class PointerPredictor {
   #engine: PointerEngine | null;
   #targets: Targets;
-  #view = new Float64Array(0);
+  #view = NOTHING;
   /** The times of the first and the last observation; none before the first. */
   #first: number | null = null;
   #last = 0;
@@ -203,6 +205,7 @@ export class PointerPredictor {
     reserve(1024 * read.ids.length);
     engine.set_targets(read.sides, read.numbers);
     this.#targets = read;
+    this.#view = NOTHING;
   }
 
   /** Begins a new movement with the same targets. */
@@ -245,11 +248,10 @@ export class PointerPredictor {
   /** The probabilities in the module's memory: good until the next call into it. */
   #probabilities(): Float64Array {
     const address = this.#live().probabilities();
-    const buffer = memory();
-    const { length } = this.#targets.ids;
     const view = this.#view;
-    if (view.buffer === buffer && view.byteOffset === address && view.length === length) return view;
-    return (this.#view = new Float64Array(buffer, address, length));
+    // as long as the memory has not grown, which leaves the view without a length
+    if (view.byteOffset === address && view.length > 0) return view;
+    return (this.#view = new Float64Array(memory(), address, this.#targets.ids.length));
   }
 
   /** Seconds after the last observation; 0 before the first. */

@@ -80,3 +80,36 @@ fn over<const D: usize, const NUMBERS: usize>(
     }
     (most.most(), doubtful.most())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_are_those_of_the_equation() {
+        let (wide, core, variance) = (0.36f64, 0.0256, 0.003);
+        let way = Way { unit: [0.6, 0.8, 0.0], weight: 1.4, power: 1.7 };
+        for angle in [0.0, 1e-6, 0.1, 1.0, 2.0, std::f64::consts::PI] {
+            let (x, y) = (0.6 * f64::cos(angle) - 0.8 * f64::sin(angle), 0.6 * f64::sin(angle) + 0.8 * f64::cos(angle));
+            let (w, c, square) = (wide + variance, core + variance, angle * angle);
+            let evidence = (w + square).powi(2) * c / (w * w * (c + square));
+            let mut sums = [[0.25, 8.0, 1e-160, 1.0]];
+            let expected = sums[0].map(|sum: f64| 1.7 * sum.log2() + 1.4 * evidence.log2());
+            let (most, doubtful) = exponents(2, &[x, y, w, w * w / c].map(|number| [number; 4]), &way, &mut sums);
+            for (found, expected) in sums[0].iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{angle}: {found} {expected}");
+            }
+            assert_eq!((most, doubtful), (sums[0][1], sums[0][2]));
+        }
+    }
+
+    #[test]
+    fn on_a_line_and_in_space_there_are_as_many_numbers_as_are_read() {
+        assert_eq!([1, 2, 3].map(numbers), [4, 4, 5]);
+        let way = Way { unit: [0.0, 0.0, 1.0], weight: 1.0, power: 0.0 };
+        let bearing = [0.0, 0.0, -1.0, 2.0, 8.0].map(|number| [number; 4]);
+        let (most, _) = exponents(3, &bearing, &way, &mut [[1.0; 4]]);
+        let square = std::f64::consts::PI.powi(2);
+        assert!((most - ((2.0 + square).powi(2) / (4.0 + 8.0 * square)).log2()).abs() < 1e-12);
+    }
+}

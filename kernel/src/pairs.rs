@@ -211,3 +211,92 @@ fn normaliser(dimensions: usize) -> f64 {
         _ => ONE * ONE * ONE,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mixture::{Places, own_sums, shared_sums};
+
+    /// `N(x; mean, covariance)` over the first `d` axes.
+    fn density(d: usize, offset: &[f64; AXES], covariance: &Symmetric) -> f64 {
+        let (precision, determinant) = inverse(covariance, d);
+        let moved = crate::small_gaussian::times(&precision, offset);
+        let square: f64 = (0..d).map(|axis| offset[axis] * moved[axis]).sum();
+        (-0.5 * square).exp() / (std::f64::consts::TAU.powi(d as i32) * determinant).sqrt()
+    }
+
+    #[test]
+    fn sums_are_those_of_the_densities_one_at_a_time() {
+        let mut times = TimesToGo::new(&[0.05, 0.1, 0.2, 0.4, 0.8], 0.2);
+        times.set_weights(1.3, -0.25, 0.8);
+        assert!((times.weights().iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        let axis = |list: [f64; 4]| vec![list];
+        let lists = [axis([1.0, 20.0, -50.0, 300.0]), axis([5.0, -9.0, 80.0, 40.0]), axis([2.0, 0.0, 7.0, -90.0])];
+        let variances = [axis([4.0, 9.0, 16.0, 100.0]), axis([5.0, 30.0, 2.0, 50.0]), axis([9.0, 8.0, 7.0, 60.0])];
+        for d in 1..=3 {
+            // what lies beyond the dimensions is zero or not there
+            let of = |x: [f64; AXES]| std::array::from_fn(|axis| if axis < d { x[axis] } else { 0.0 });
+            let motion = Motion {
+                position: of([3.0, 4.0, 5.0]),
+                velocity: of([200.0, -100.0, 60.0]),
+                variances: std::array::from_fn(|axis| if axis < d { [1.0, 40.0, 900.0] } else { [0.0; 3] }),
+            };
+            let slice =
+                |lists: &'_ [Vec<Block>; AXES], axis: usize| if axis < d { lists[axis].clone() } else { Vec::new() };
+            let coordinates: [Vec<Block>; AXES] = std::array::from_fn(|axis| slice(&lists, axis));
+            let own: [Vec<Block>; AXES] = std::array::from_fn(|axis| slice(&variances, axis));
+            let places = Places {
+                coordinates: coordinates.each_ref().map(Vec::as_slice),
+                variances: own.each_ref().map(Vec::as_slice),
+                origin: [0.0; AXES],
+            };
+            let shared = [30.0, 5.0, 20.0, 2.0, -3.0, 10.0];
+            for noises in [&[[1e4, 8.0]][..], &[[1e4, 8.0], [1e6, 8.0]], &[[1e4, 8.0], [1e5, 2.0], [1e6, 0.0]]] {
+                let mut room = vec![Densities::default(); 5 * noises.len().div_ceil(2)];
+                for covariance in [Some(&shared), None] {
+                    let mut sums = [[0.0; WIDTH]];
+                    assert!(times.densities(d, &motion, noises, covariance, &mut room));
+                    if covariance.is_some() {
+                        shared_sums(d, &room, &places, &[[2.0; WIDTH]], &mut sums);
+                    } else {
+                        own_sums(d, &room, &places, &[[2.0; WIDTH]], &mut sums);
+                    }
+                    for lane in 0..WIDTH {
+                        let mut expected = 0.0;
+                        for noise in noises {
+                            for (&time, weight) in times.times().iter().zip(times.weights()) {
+                                let mut grown = motion.covariance(noise, time);
+                                for entry in 0..6 {
+                                    let variance = [0, 9, 1, 9, 9, 2][entry];
+                                    grown[entry] += match covariance {
+                                        Some(shared) => shared[entry],
+                                        None => variances.get(variance).map_or(0.0, |list| list[0][lane]),
+                                    };
+                                }
+                                let offset = std::array::from_fn(|axis| {
+                                    if axis < d {
+                                        lists[axis][0][lane] - motion.position[axis] - time * motion.velocity[axis]
+                                    } else {
+                                        0.0
+                                    }
+                                });
+                                expected += 2.0 * weight / noises.len() as f64 * density(d, &offset, &grown);
+                            }
+                        }
+                        let found = sums[0][lane];
+                        assert!((found / expected - 1.0).abs() < 1e-12, "{d} {lane}: {found:e} {expected:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn determinants_without_their_digits_are_reported() {
+        let times = TimesToGo::new(&[0.1], 0.1);
+        let motion = Motion { position: [0.0; 3], velocity: [1e9, 1e9, 0.0], variances: [[1.0, 0.0, 0.0]; 3] };
+        let mut room = [Densities::default()];
+        assert!(!times.densities(2, &motion, &[[0.0, 1.0]], Some(&[0.0; 6]), &mut room));
+        assert!(times.densities(2, &motion, &[[1e18, 1.0]], Some(&[0.0; 6]), &mut room));
+    }
+}

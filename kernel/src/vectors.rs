@@ -172,7 +172,8 @@ impl Lanes {
     pub fn most(self) -> f64 {
         let mut block = [0.0; WIDTH];
         self.store(&mut block);
-        block.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        // `f64::max` is a call in WebAssembly
+        block.into_iter().fold(f64::NEG_INFINITY, |most, x| if x > most { x } else { most })
     }
 
     /// `log2` of each, to an absolute 1e-15 where that is less than 4; of normal numbers above zero.
@@ -277,6 +278,14 @@ pub const fn exponent(x: f64) -> f64 {
 pub fn scale_above(numbers: &mut [f64], least: f64, factor: f64) {
     for x in numbers {
         *x = if *x > least { *x * factor } else { 0.0 };
+    }
+}
+
+/// Multiplies numbers by `factor`, and adds `even` to those with a weight above zero.
+#[inline(never)]
+pub fn mix(numbers: &mut [f64], factor: f64, weights: &[f64], even: f64) {
+    for (x, weight) in numbers.iter_mut().zip(weights) {
+        *x = factor * *x + if *weight > 0.0 { even } else { 0.0 };
     }
 }
 
@@ -477,6 +486,27 @@ mod tests {
         let mut numbers = [1.0, 0.5, 0.25, 0.125, 2.0];
         scale_above(&mut numbers, 0.25, 4.0);
         assert_eq!(numbers, [4.0, 2.0, 0.0, 0.0, 8.0]);
+    }
+
+    #[test]
+    fn only_what_has_a_weight_is_mixed_with_the_even_share() {
+        let mut numbers = [1.0, 0.5, 0.25];
+        mix(&mut numbers, 2.0, &[1.0, 0.0, 1e-9], 0.125);
+        assert_eq!(numbers, [2.125, 1.0, 0.625]);
+    }
+
+    #[test]
+    fn decaying_powers_of_two_are_within_2e_13() {
+        let decay = |x: f64| one(|x| x.unscaled_decay().scaled_decay(), x);
+        let mut worst = 0.0f64;
+        for k in 0..400_000 {
+            let x = -950.0 * (f64::from(k) * 0.618_033_988_749_894_9).fract();
+            worst = worst.max((decay(x) / x.exp2() - 1.0).abs());
+        }
+        assert!(worst < 2e-13 && worst > 1e-15, "{worst:e}");
+        for x in [-960.5, -1e9, f64::NEG_INFINITY, f64::NAN] {
+            assert_eq!(decay(x), decay(-MOST_EXPONENT), "2^{x}");
+        }
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct FromStart {
     pub priors: Vec<Block>,
     /// Whether no number is so large or small that products with it may leave their range.
     pub moderate: bool,
+    /// How many targets are possible at all, at least one.
+    pub possible: usize,
     /// How far the movement had begun when these were computed; none before.
     onset: Option<Onset>,
 }
@@ -37,7 +39,8 @@ impl FromStart {
         let blocks = targets.layout().blocks();
         let [over_start, priors] = [Vec::with_capacity(blocks), Vec::with_capacity(blocks)];
         let bearings = Vec::with_capacity(blocks * bearings::numbers(dimensions));
-        Self { bearings, over_start, priors, moderate: true, onset: None }
+        let possible = targets.priors().iter().filter(|prior| **prior > 0.0).count().max(1);
+        Self { bearings, over_start, priors, moderate: true, possible, onset: None }
     }
 
     /// Another start: all is to be computed again.

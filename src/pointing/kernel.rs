@@ -18,6 +18,15 @@ use whither_kernel::vectors::{Block, raise};
 /// What is this many powers of two below the most probable does not matter.
 const NOTHING: f64 = 60.0;
 
+/// What weights sum to, times a power of `e`.
+#[derive(Clone, Copy, Debug)]
+pub struct Total {
+    /// The sum.
+    pub total: f64,
+    /// The exponent of the power.
+    pub log_scale: f64,
+}
+
 /// Room that is kept from step to step; what is in it is no part of any state.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
@@ -36,15 +45,15 @@ pub(crate) struct Now<'a, S> {
 }
 
 impl Work {
-    /// Writes the probabilities among the destinations and returns the logarithm of what they sum to; none where numbers
-    /// leave the range in which this holds.
-    pub fn probabilities<S: Space>(
+    /// Writes weights of the destinations, which are to be divided by their sum, and returns that; none where numbers leave the
+    /// range in which this holds.
+    pub fn weights<S: Space>(
         &mut self,
         targets: &Targets,
         from_start: &FromStart,
         now: &Now<'_, S>,
         into: &mut Vec<f64>,
-    ) -> Option<f64> {
+    ) -> Option<Total> {
         if !from_start.moderate {
             return None;
         }
@@ -65,14 +74,12 @@ impl Work {
             let (best, worst) = exponents(d, &from_start.bearings[blocks.start * numbers(d)..], now.way, weights);
             (most, doubtful) = (most.max(best), doubtful.max(worst));
         }
-        let shift = most.round();
+        let shift = most.round_ties_even();
         let (total, certain) = (raise(weights, &from_start.priors, shift), doubtful < most - NOTHING);
         if !(certain && most.is_finite() && total > 1e-200 && total < 1e200) {
             return None;
         }
         targets.layout().scatter(aside, into);
-        let over = 1.0 / total;
-        into.iter_mut().for_each(|weight| *weight *= over);
-        Some(total.ln() + shift * std::f64::consts::LN_2)
+        Some(Total { total, log_scale: shift * std::f64::consts::LN_2 })
     }
 }

@@ -39,7 +39,7 @@ use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_near, log_start};
 use from_start::FromStart;
-use kernel::{Now, Work};
+use kernel::{Now, Total, Work};
 use parameters::PointingConstants;
 use space::Space;
 use std::sync::Arc;
@@ -142,17 +142,18 @@ impl<S: Space> Pointing<S> {
         self.targets = targets;
     }
 
-    /// Writes the probabilities among the targets, `prior_i near_i (N_i / S_i)^g e^B_i` over their sum, and returns the
-    /// logarithm of that sum; none where nothing is known of any of them.
-    fn probabilities(&mut self, into: &mut Vec<f64>) -> Option<f64> {
+    /// Writes weights of the targets, `prior_i near_i (N_i / S_i)^g e^B_i` with one scale for all, and returns what they sum to;
+    /// none where nothing is known of any of them.
+    fn weights(&mut self, into: &mut Vec<f64>) -> Option<Total> {
         let (onset, d) = (self.onset(), self.course.dimensions());
         let Self { parameters, targets, course, .. } = self;
         if course.observations > 1 {
             self.from_start.update(targets, parameters, self.log_volume, course, onset);
             let way = DirectionNow::new(&parameters.direction, course).way(parameters.power.after(course.elapsed));
             let now = Now { nodes: &self.nodes, way: &way };
-            if let Some(log_sum) = self.work.probabilities(targets, &self.from_start, &now, into) {
-                return Some(log_sum);
+            let total = self.work.weights(targets, &self.from_start, &now, into);
+            if total.is_some() {
+                return total;
             }
         }
         self.log_likelihoods(into);
@@ -168,7 +169,7 @@ impl<S: Space> Pointing<S> {
             }
             *value += onset.share * near + log_prior;
         }
-        share(into)
+        share(into).map(|log_scale| Total { total: 1.0, log_scale })
     }
 
     /// `g (ln N_i - ln S_i) + B_i` for every target; zero after the first observation alone.

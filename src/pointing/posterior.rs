@@ -1,14 +1,16 @@
 //! The posterior of the pointing model: targets, none of them, the time to go.
 
+use super::kernel::Total;
 use super::{Pointing, Space, minus};
 use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::{Shares, shares};
+use whither_kernel::vectors::mix;
 
 impl<S: Space> Pointing<S> {
     /// Writes the probabilities of the targets against none of them, whose prior is `none`, with the even share distributed over
     /// the targets that are possible at all, and returns the probability of none.
     pub fn posterior(&mut self, none: f64, into: &mut Vec<f64>) -> f64 {
-        let Some(log_sum) = self.probabilities(into) else {
+        let Some(Total { total, log_scale }) = self.weights(into) else {
             shares::prior(self.targets().priors(), none, into);
             return none;
         };
@@ -16,16 +18,12 @@ impl<S: Space> Pointing<S> {
         let none = match none {
             0.0 => 0.0,
             none => {
-                let log_odds = (none / (1.0 - none)).ln() + self.log_likelihood_of_none() - log_sum;
+                let log_odds = (none / (1.0 - none)).ln() + self.log_likelihood_of_none() - (total.ln() + log_scale);
                 (1.0 - kept) / (1.0 + (-log_odds).exp()) + kept * none
             }
         };
-        let priors = self.targets().priors();
-        let possible = priors.iter().filter(|prior| **prior > 0.0).count().max(1);
-        let (kept, even) = ((1.0 - none) * (1.0 - uniform), (1.0 - none) * (uniform / possible as f64));
-        for (value, prior) in into.iter_mut().zip(priors) {
-            *value = kept * *value + if *prior > 0.0 { even } else { 0.0 };
-        }
+        let even = (1.0 - none) * (uniform / self.from_start.possible as f64);
+        mix(into, (1.0 - none) * (1.0 - uniform) / total, self.targets().priors(), even);
         none
     }
 
