@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with `t` the angle between the way so far and the destination, `w` and `c` the squares of `wide` and `core`. `N_i` is a
-//! sum of [`SharedDensity`] terms where destinations share the covariance of their endpoints, of [`Density`] terms where not.
+//! sum of densities, [`shared_sums`] where destinations share the covariance of their endpoints, [`own_sums`] where not.
 
 use super::Space;
 use super::endpoint::Nodes;
