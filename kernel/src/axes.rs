@@ -131,8 +131,8 @@ impl Start {
     pub fn predict(&self, step: &dyn Fn(usize) -> Option<AxisTransition>, into: &mut Self) {
         into.clone_from(self);
         match self.components {
-            1 => into.move_by(|axis| step(axis).map(Of::<1>)),
             2 => into.move_by(|axis| step(axis).map(Of::<2>)),
+            // where there are fewer, the others are zero
             _ => into.move_by(|axis| step(axis).map(Of::<3>)),
         }
     }

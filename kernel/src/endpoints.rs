@@ -112,20 +112,16 @@ pub struct Position {
     pub mean: [Block; AXES],
     /// The variances.
     pub variance: [Block; AXES],
-    /// The rest's density is the root of this, up to a constant ...
-    pub density: Block,
+    /// The rest's density is this, up to a constant ...
+    pub root: Block,
     /// ... times `e` to minus half of this, its squared distance.
     pub square: Block,
 }
 
 impl Position {
     /// To be filled.
-    pub const EMPTY: Self = Self {
-        mean: [[0.0; WIDTH]; AXES],
-        variance: [[0.0; WIDTH]; AXES],
-        density: [0.0; WIDTH],
-        square: [0.0; WIDTH],
-    };
+    pub const EMPTY: Self =
+        Self { mean: [[0.0; WIDTH]; AXES], variance: [[0.0; WIDTH]; AXES], root: [0.0; WIDTH], square: [0.0; WIDTH] };
 }
 
 /// What the endpoints of one block of nodes have in common in all axes that differ in their means alone: the covariance, eliminated
@@ -137,7 +133,7 @@ pub struct Elimination {
     inverse: [Block; MOST],
     /// Of the position, given the rest.
     variance: Block,
-    /// That of the rest, as in [`Position`].
+    /// The rest's density is the root of this, up to the power of its distance.
     density: Block,
 }
 
@@ -149,6 +145,25 @@ impl Elimination {
         variance: [0.0; WIDTH],
         density: [0.0; WIDTH],
     };
+}
+
+/// A call with the numbers of components of the state and of the endpoint as constants, so that no loop over them is left.
+macro_rules! with_constants {
+    ($states:expr, $length:expr, |$s:ident, $l:ident| $call:expr) => {
+        match ($states, $length) {
+            (1, _) => with_constants!(1, 1, $s, $l, $call),
+            (2, 1) => with_constants!(2, 1, $s, $l, $call),
+            (2, _) => with_constants!(2, 2, $s, $l, $call),
+            (_, 1) => with_constants!(3, 1, $s, $l, $call),
+            (_, 2) => with_constants!(3, 2, $s, $l, $call),
+            _ => with_constants!(3, 3, $s, $l, $call),
+        }
+    };
+    ($states:literal, $length:literal, $s:ident, $l:ident, $call:expr) => {{
+        const $s: usize = $states;
+        const $l: usize = $length;
+        $call
+    }};
 }
 
 /// The positions at all nodes: `tables` holds the transitions from these states to them, that of the first axis where `same` has
@@ -169,12 +184,7 @@ pub fn predict(
         // the one before may have left another covariance
         if axis == 0 || !(alike[axis] && alike[axis - 1]) {
             let (covariance, own) = (states.covariances[axis], &endpoints[axis].covariance);
-            // with constants here no loop over components is left
-            match (components, length) {
-                (2, 1) => eliminate(2, 1, table, covariance, own, room),
-                (2, 2) => eliminate(2, 2, table, covariance, own, room),
-                (components, length) => eliminate(components, length, table, covariance, own, room),
-            }
+            with_constants!(components, length, |S, L| eliminate(S, L, table, covariance, own, room));
         }
         // two axes that are alike share what is loaded
         let both = axis + 1 < states.dimensions && alike[axis] && alike[axis + 1];
@@ -182,7 +192,7 @@ pub fn predict(
         axis += match (components, length) {
             (2, 1) if both => from.positions::<2>(2, 1, table, room, into),
             (2, 2) if both => from.positions::<2>(2, 2, table, room, into),
-            (components, length) => from.positions::<1>(components, length, table, room, into),
+            _ => with_constants!(components, length, |S, L| from.positions::<1>(S, L, table, room, into)),
         };
     }
 }
@@ -217,12 +227,11 @@ impl Means<'_> {
                     }
                 }
             }
-            let (mut density, mut square) = (Lanes::load(&room.density), Lanes::splat(0.0));
-            if A == 2 {
-                density = density * density;
-            }
+            // of two axes that are alike the root of the density is that of one
+            let density = Lanes::load(&room.density);
+            let (mut root, mut square) = (if A == 2 { density } else { density.sqrt() }, Lanes::splat(0.0));
             if self.axis > 0 {
-                density = density * Lanes::load(&position.density);
+                root = root * Lanes::load(&position.root);
                 square = Lanes::load(&position.square);
             }
             for r in (1..length).rev() {
@@ -236,7 +245,7 @@ impl Means<'_> {
                 }
                 square = square + sum * Lanes::load(&room.inverse[r]);
             }
-            density.store(&mut position.density);
+            root.store(&mut position.root);
             square.store(&mut position.square);
             for a in 0..A {
                 predicted[a][0].store(&mut position.mean[self.axis + a]);

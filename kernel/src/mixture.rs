@@ -22,7 +22,7 @@ use super::vectors::{Block, Lanes, Shift, WIDTH};
 /// Half of `log2(e)`: a density's exponent in base 2 is this times the squared distance.
 pub const HALF_LOG2_E: f64 = 0.5 * std::f64::consts::LOG2_E;
 
-/// The most axes. Terms have room for as many; what a term over fewer axes holds beyond them is not read.
+/// The most axes. Terms have room for as many, and hold zeros beyond the axes that there are.
 pub const AXES: usize = 3;
 
 /// Where the terms are evaluated.
@@ -36,7 +36,20 @@ pub struct Places<'a> {
     pub origin: [f64; AXES],
 }
 
-/// One term, `factor * 2^exponent` at every place, over `D` axes.
+impl Places<'_> {
+    /// The same where there are two axes or more; a line twice, as a plane. Terms on a line, whose numbers beyond it are zero, have
+    /// the same values there: a [`Ball`] alone has not.
+    #[inline(always)]
+    fn in_the_plane(&self) -> Self {
+        let mut places = *self;
+        if places.coordinates[1].is_empty() {
+            (places.coordinates[1], places.variances[1]) = (places.coordinates[0], places.variances[0]);
+        }
+        places
+    }
+}
+
+/// One term, `factor * 2^exponent` at every place, over `D` axes: two or three.
 pub trait Term<const D: usize>: Copy {
     /// What is the same for every term at one block of places.
     type Place: Copy;
@@ -98,17 +111,13 @@ fn term_at<const D: usize, T: Term<D>>(terms: &[T], places: &Places<'_>, n: usiz
 }
 
 #[inline(never)]
-fn term_in<T: Term<1> + Term<2> + Term<3>>(
+fn term_in<T: Term<2> + Term<3>>(
     dimensions: usize,
     terms: &[T],
     places: &Places<'_>,
     (n, i): (usize, usize),
 ) -> Option<(Lanes, Lanes)> {
-    match dimensions {
-        1 => term_at::<1, T>(terms, places, n, i),
-        2 => term_at::<2, T>(terms, places, n, i),
-        _ => term_at::<3, T>(terms, places, n, i),
-    }
+    if dimensions == 3 { term_at::<3, T>(terms, places, n, i) } else { term_at::<2, T>(terms, places, n, i) }
 }
 
 /// Writes `log2 sum_n f_n 2^e_n(i)` for every place, whatever the size of the exponents.
@@ -166,15 +175,16 @@ macro_rules! sums {
                 priors: &[Block],
                 weights: &mut [Block],
             ) -> f64 {
-                match dimensions {
-                    1 => weighted_sums::<1, Self>(terms, places, shift, priors, weights),
-                    2 => weighted_sums::<2, Self>(terms, places, shift, priors, weights),
-                    _ => weighted_sums::<3, Self>(terms, places, shift, priors, weights),
+                if dimensions == 3 {
+                    weighted_sums::<3, Self>(terms, places, shift, priors, weights)
+                } else {
+                    weighted_sums::<2, Self>(terms, &places.in_the_plane(), shift, priors, weights)
                 }
             }
 
             #[inline(never)]
             fn log2_sums(dimensions: usize, terms: &[Self], places: &Places<'_>, logs: &mut [Block]) {
+                let places = &places.in_the_plane();
                 log2_sums(terms.len(), &|n, i| term_in(dimensions, terms, places, (n, i)), logs);
             }
         }
@@ -329,11 +339,12 @@ mod tests {
 
     #[test]
     fn logs_neither_overflow_nor_vanish() {
-        let ball = |constant| Ball { curvature: -1.0, slope: [0.0; AXES], constant, factor: 2.0 };
+        let curvature = [[-1.0, 0.0, 0.0], [0.0; AXES], [0.0; AXES]];
+        let term = |constant| Ellipsoid { curvature, constant, factor: 2.0, ..Ellipsoid::default() };
         let x = [[0.0, 1.0, 1e3, 1e6]];
         let places = Places { coordinates: [&x[..], &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut logs = [[0.0; WIDTH]];
-        Ball::log2_sums(1, &[ball(5e5), ball(5e5), ball(-7e5)], &places, &mut logs);
+        Ellipsoid::log2_sums(1, &[term(5e5), term(5e5), term(-7e5)], &places, &mut logs);
         assert_eq!(logs[0], [500_002.0, 500_001.0, -499_998.0, 500_002.0 - 1e12]);
     }
 
@@ -342,9 +353,9 @@ mod tests {
         let x = line(1.5);
         let places = Places { coordinates: [x.as_slice(), &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let (mut logs, mut weights) = (vec![[7.0; WIDTH]; 3], vec![[7.0; WIDTH]; 3]);
-        Ball::log2_sums(1, &[], &places, &mut logs);
+        Ellipsoid::log2_sums(1, &[], &places, &mut logs);
         assert_eq!(logs, [[f64::NEG_INFINITY; WIDTH]; 3]);
-        let total = Ball::weighted_sums(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
+        let total = Ellipsoid::weighted_sums(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
         assert_eq!((total, weights), (0.0, vec![[0.0; WIDTH]; 3]));
     }
 }

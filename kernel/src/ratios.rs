@@ -112,8 +112,7 @@ impl Ratios {
         let positions = self.now[all.clone()].iter().zip(&self.start[all.clone()]);
         let places = self.factors[all.clone()].iter_mut().zip(&mut self.constants[all]);
         for (((now, start), (factor, constant)), weights) in positions.zip(places).zip(prediction.weights) {
-            let density = Lanes::load(&now.density) / Lanes::load(&start.density);
-            (weight * Lanes::load(weights) * density.sqrt()).store(factor);
+            (weight * Lanes::load(weights) * Lanes::load(&now.root) / Lanes::load(&start.root)).store(factor);
             (lead + half * (Lanes::load(&start.square) - Lanes::load(&now.square))).store(constant);
         }
     }
@@ -128,16 +127,17 @@ impl Ratios {
             .map(|((now, start), (factor, constant))| (now, start, factor, constant))
     }
 
-    /// The terms as balls about `origin`, for places with variances `size`; false where they would cancel or are none.
+    /// The terms as balls about `origin`, for places with variances `size`; false where they would cancel, on a line, or where
+    /// there are none.
     #[inline(never)]
     pub fn balls(&self, dimensions: usize, size: &[f64; MOST], origin: &[f64; AXES], into: &mut Vec<Ball>) -> bool {
-        if self.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
+        if dimensions == 1 || self.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
             return false;
         }
-        match dimensions {
-            1 => self.balls_in::<1>(size[0], origin, into),
-            2 => self.balls_in::<2>(size[0], origin, into),
-            _ => self.balls_in::<3>(size[0], origin, into),
+        if dimensions == 3 {
+            self.balls_in::<3>(size[0], origin, into)
+        } else {
+            self.balls_in::<2>(size[0], origin, into)
         }
     }
 
@@ -149,7 +149,9 @@ impl Ratios {
         for (now, start, factor, constant) in self.blocks() {
             let v = Lanes::load(&now.variance[0]) + size;
             let u = Lanes::load(&start.variance[0]) + size;
-            let (over_v, over_u) = (one / v, one / u);
+            // one division for both
+            let over = one / (v * u);
+            let (over_v, over_u) = (u * over, v * over);
             let mut slope = [[0.0; WIDTH]; AXES];
             let (mut squares, mut start_squares) = (Lanes::splat(0.0), Lanes::splat(0.0));
             for axis in 0..D {
@@ -161,13 +163,9 @@ impl Ratios {
                 start_squares = start_squares + g * from_g;
             }
             let ratio = u * over_v;
-            let ratio = match D {
-                1 => ratio.sqrt(),
-                2 => ratio,
-                _ => ratio * ratio.sqrt(),
-            };
+            let ratio = if D == 3 { ratio * ratio.sqrt() } else { ratio };
             let [mut curvature, mut constants, mut factors] = [[0.0; WIDTH]; 3];
-            (half * (v - u) * over_v * over_u).store(&mut curvature);
+            (half * (v - u) * over).store(&mut curvature);
             (Lanes::load(constant) + half * (start_squares - squares)).store(&mut constants);
             (Lanes::load(factor) * ratio).store(&mut factors);
             most = squares.at_least(start_squares).at_least(most);

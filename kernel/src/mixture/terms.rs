@@ -3,8 +3,8 @@
 use super::{AXES, HALF_LOG2_E, Places, Term, at};
 use crate::vectors::Lanes;
 
-/// A quadratic with one curvature for all axes, expanded about the origin of the [`Places`]: the cheapest form, for where
-/// its terms do not cancel.
+/// A quadratic with one curvature for all axes, two or three, expanded about the origin of the [`Places`]: the cheapest form, for
+/// where its terms do not cancel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ball {
     /// The factor of the squared distance from the origin.
@@ -156,6 +156,5 @@ macro_rules! terms {
     };
 }
 
-terms!(1: 0, [0]);
 terms!(2: 0 1, [0 1] [1]);
 terms!(3: 0 1 2, [0 1 2] [1 2] [2]);
