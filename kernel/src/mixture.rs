@@ -38,7 +38,7 @@ pub struct Places<'a> {
 
 impl Places<'_> {
     /// The same where there are two axes or more; a line twice, as a plane. Terms on a line, whose numbers beyond it are zero, have
-    /// the same values there: a [`Ball`] alone has not.
+    /// the same values there.
     #[inline(always)]
     fn in_the_plane(&self) -> Self {
         let mut places = *self;
@@ -191,7 +191,21 @@ macro_rules! sums {
     )*};
 }
 
-sums!(Ball, Ellipsoid, Own);
+sums!(Ellipsoid, Own);
+
+impl Ball {
+    /// As [`Sums::weighted_sums`], in the plane.
+    #[inline(never)]
+    pub fn weighted_sums(
+        terms: &[Self],
+        places: &Places<'_>,
+        shift: f64,
+        priors: &[Block],
+        weights: &mut [Block],
+    ) -> f64 {
+        weighted_sums::<2, Self>(terms, places, shift, priors, weights)
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -127,23 +127,14 @@ impl Ratios {
             .map(|((now, start), (factor, constant))| (now, start, factor, constant))
     }
 
-    /// The terms as balls about `origin`, for places with variances `size`; false where they would cancel, on a line, or where
-    /// there are none.
+    /// The terms as balls about `origin`, for places with variances `size`; false where they would cancel, not in the plane, or
+    /// where there are none.
     #[inline(never)]
     pub fn balls(&self, dimensions: usize, size: &[f64; MOST], origin: &[f64; AXES], into: &mut Vec<Ball>) -> bool {
-        if dimensions == 1 || self.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
+        if dimensions != 2 || self.is_empty() || !self.round || size[..dimensions].iter().any(|s| *s != size[0]) {
             return false;
         }
-        if dimensions == 3 {
-            self.balls_in::<3>(size[0], origin, into)
-        } else {
-            self.balls_in::<2>(size[0], origin, into)
-        }
-    }
-
-    #[inline(always)]
-    fn balls_in<const D: usize>(&self, size: f64, origin: &[f64; AXES], into: &mut Vec<Ball>) -> bool {
-        let (half, one, size) = (Lanes::splat(HALF_LOG2_E), Lanes::splat(1.0), Lanes::splat(size));
+        let (half, one, size) = (Lanes::splat(HALF_LOG2_E), Lanes::splat(1.0), Lanes::splat(size[0]));
         let (mut most, mut count) = (Lanes::splat(0.0), 0);
         into.resize(WIDTH * self.used, Ball::default());
         for (now, start, factor, constant) in self.blocks() {
@@ -154,7 +145,7 @@ impl Ratios {
             let (over_v, over_u) = (u * over, v * over);
             let mut slope = [[0.0; WIDTH]; AXES];
             let (mut squares, mut start_squares) = (Lanes::splat(0.0), Lanes::splat(0.0));
-            for axis in 0..D {
+            for axis in 0..2 {
                 let p = Lanes::load(&now.mean[axis]) - Lanes::splat(origin[axis]);
                 let g = Lanes::load(&start.mean[axis]) - Lanes::splat(origin[axis]);
                 let (from_p, from_g) = (p * over_v, g * over_u);
@@ -163,7 +154,6 @@ impl Ratios {
                 start_squares = start_squares + g * from_g;
             }
             let ratio = u * over_v;
-            let ratio = if D == 3 { ratio * ratio.sqrt() } else { ratio };
             let [mut curvature, mut constants, mut factors] = [[0.0; WIDTH]; 3];
             (half * (v - u) * over).store(&mut curvature);
             (Lanes::load(constant) + half * (start_squares - squares)).store(&mut constants);

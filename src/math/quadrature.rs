@@ -1,6 +1,7 @@
 //! Quadrature over an interval, for Liang (6): nodes and weights that sum to one.
 
 use super::cosine::cosine;
+use super::radix_sort::sort_numbers;
 use super::random::Random;
 use crate::error::{Code, Result};
 use crate::value::{Node, Path, Value};
@@ -210,7 +211,7 @@ fn evenly(points: usize, weight: impl Fn(usize) -> f64) -> Rule {
 fn drawn(points: usize, seed: u32, draw: fn(&mut Random) -> f64) -> Rule {
     let mut random = Random::new(u64::from(seed));
     let mut nodes: Vec<f64> = (0..points).map(|_| draw(&mut random)).collect();
-    nodes.sort_unstable_by(f64::total_cmp);
+    sort_numbers(&mut nodes);
     Rule { nodes, weights: vec![1.0; points] }
 }
 

@@ -11,6 +11,7 @@
 
 use super::destination::Destinations;
 use crate::error::{Code, Result};
+use crate::math::radix_sort::sort_numbers;
 use crate::value::{Node, Path, Value};
 
 /// Counts below this are forgotten.
@@ -151,7 +152,7 @@ impl Habits {
             let pairs = &mut self.pairs.0;
             if pairs.len() > MOST_PAIRS {
                 let mut counts: Vec<f64> = pairs.iter().map(|pair| pair.count).collect();
-                counts.sort_unstable_by(f64::total_cmp);
+                sort_numbers(&mut counts);
                 let middle = counts[counts.len() / 2];
                 let mut surplus = counts.len() / 2;
                 pairs.retain(|pair| {

@@ -1,5 +1,7 @@
 //! The posterior of the arrival time, `p(T_n | y_1:k)`, mixed over the destinations or for one of them.
 
+use crate::math::radix_sort::sort_numbers;
+
 /// Arrival times and their probabilities.
 ///
 /// ```
@@ -32,7 +34,7 @@ impl ArrivalTime {
     #[must_use]
     pub(crate) fn from_nodes(nodes: &[(f64, f64)]) -> Self {
         let mut times: Vec<f64> = nodes.iter().map(|(time, _)| *time).collect();
-        times.sort_unstable_by(f64::total_cmp);
+        sort_numbers(&mut times);
         times.dedup();
         let mut probabilities = vec![0.0; times.len()];
         for (time, weight) in nodes {

@@ -30,11 +30,6 @@ pub use sequence::SequenceEngine;
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// In constant time, and smaller than the default one.
-#[cfg(all(feature = "wasm", not(feature = "wasm-pointing")))]
-#[global_allocator]
-static ALLOCATOR: rlsf::GlobalTlsf = rlsf::GlobalTlsf::new();
-
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 type Result<T> = std::result::Result<T, WhitherError>;
 

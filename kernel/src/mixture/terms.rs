@@ -3,7 +3,7 @@
 use super::{AXES, HALF_LOG2_E, Places, Term, at};
 use crate::vectors::Lanes;
 
-/// A quadratic with one curvature for all axes, two or three, expanded about the origin of the [`Places`]: the cheapest form, for
+/// A quadratic in the plane with one curvature for both axes, expanded about the origin of the [`Places`]: the cheapest form, for
 /// where its terms do not cancel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ball {
@@ -65,32 +65,29 @@ fn own_axis(
     (numerator, variance * start_variance, start_variance)
 }
 
+impl Term<2> for Ball {
+    /// Offsets from the origin, and their squared length.
+    type Place = ([Lanes; 2], Lanes);
+
+    #[inline(always)]
+    fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
+        let x = at(places.coordinates[0], i)? - Lanes::splat(places.origin[0]);
+        let y = at(places.coordinates[1], i)? - Lanes::splat(places.origin[1]);
+        Some(([x, y], x * x + y * y))
+    }
+
+    #[inline(always)]
+    fn exponent_and_factor(&self, ([x, y], square): &Self::Place) -> (Lanes, Lanes) {
+        let exponent = Lanes::splat(self.curvature) * *square
+            + Lanes::splat(self.slope[0]) * *x
+            + Lanes::splat(self.slope[1]) * *y
+            + Lanes::splat(self.constant);
+        (exponent, Lanes::splat(self.factor))
+    }
+}
+
 macro_rules! terms {
     ($d:literal: $first:literal $($rest:literal)*, $([$row:literal $($column:literal)*])*) => {
-        impl Term<$d> for Ball {
-            /// Offsets from the origin, and their squared length.
-            type Place = ([Lanes; $d], Lanes);
-
-            #[inline(always)]
-            fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
-                let offsets = [
-                    at(places.coordinates[$first], i)? - Lanes::splat(places.origin[$first]),
-                    $(at(places.coordinates[$rest], i)? - Lanes::splat(places.origin[$rest])),*
-                ];
-                let square = offsets[$first] * offsets[$first] $(+ offsets[$rest] * offsets[$rest])*;
-                Some((offsets, square))
-            }
-
-            #[inline(always)]
-            fn exponent_and_factor(&self, (offsets, square): &Self::Place) -> (Lanes, Lanes) {
-                let exponent = Lanes::splat(self.curvature) * *square
-                    + Lanes::splat(self.slope[$first]) * offsets[$first]
-                    $(+ Lanes::splat(self.slope[$rest]) * offsets[$rest])*
-                    + Lanes::splat(self.constant);
-                (exponent, Lanes::splat(self.factor))
-            }
-        }
-
         impl Term<$d> for Ellipsoid {
             /// Coordinates.
             type Place = [Lanes; $d];

@@ -59,7 +59,7 @@ impl Work {
             let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
             match class.size {
                 None => Own::weighted_sums(d, owns, &places, shift, priors, weights),
-                Some(_) if round => Ball::weighted_sums(d, balls, &places, shift, priors, weights),
+                Some(_) if round => Ball::weighted_sums(balls, &places, shift, priors, weights),
                 Some(_) => Ellipsoid::weighted_sums(d, ellipsoids, &places, shift, priors, weights),
             }
         };
