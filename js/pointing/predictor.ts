@@ -13,8 +13,6 @@ import { type PointerConstants, readConstants } from "./constants.js";
 import { fields, isAbsent, list, number, quotedSome, refuse, text } from "../core/read.js";
 import { type PointerTarget, readTargets, type Targets } from "./targets.js";
 
-const NOTHING = new Float64Array(0);
-
 /** The longest movement and the farthest forecast, in seconds. */
 const MOST_TIME = 1e12;
 
@@ -55,7 +53,7 @@ export interface PointerOptions {
 export class PointerPredictor {
   #engine: PointerEngine | null;
   #targets: Targets;
-  #view = NOTHING;
+  #view: Float64Array | null = null;
   /** The times of the first and the last observation; none before the first. */
   #first: number | null = null;
   #last = 0;
@@ -205,7 +203,7 @@ export class PointerPredictor {
     reserve(1024 * read.ids.length);
     engine.set_targets(read.sides, read.numbers);
     this.#targets = read;
-    this.#view = NOTHING;
+    this.#view = null;
   }
 
   /** Begins a new movement with the same targets. */
@@ -250,7 +248,7 @@ export class PointerPredictor {
     const address = this.#live().probabilities();
     const view = this.#view;
     // as long as the memory has not grown, which leaves the view without a length
-    if (view.byteOffset === address && view.length > 0) return view;
+    if (view !== null && view.byteOffset === address && view.length > 0) return view;
     return (this.#view = new Float64Array(memory(), address, this.#targets.ids.length));
   }
 
