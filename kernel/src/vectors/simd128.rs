@@ -1,9 +1,10 @@
 //! The operations as instructions of WebAssembly, all of them safe functions.
 
 use super::{BIAS, Block, NEAREST, TWO_52};
+use bytemuck::must_cast;
 use core::arch::wasm32::{
-    f64x2, f64x2_add, f64x2_div, f64x2_extract_lane, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sqrt,
-    f64x2_sub, i64x2_add, i64x2_shl, i64x2_sub, u64x2_shr, u64x2_splat, v128, v128_or,
+    f64x2_add, f64x2_div, f64x2_mul, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sqrt, f64x2_sub, i64x2_add, i64x2_shl,
+    i64x2_sub, u64x2_shr, u64x2_splat, v128, v128_or,
 };
 
 // no loops and no arrays of arrays: at the level for size they would stay in memory
@@ -19,15 +20,13 @@ impl Vector {
 
     #[inline(always)]
     pub fn load(block: &Block) -> Self {
-        let [a, b, c, d] = *block;
-        Self(f64x2(a, b), f64x2(c, d))
+        let [low, high] = must_cast(*block);
+        Self(low, high)
     }
 
     #[inline(always)]
     pub fn store(self, block: &mut Block) {
-        let low = |v| f64x2_extract_lane::<0>(v);
-        let high = |v| f64x2_extract_lane::<1>(v);
-        *block = [low(self.0), high(self.0), low(self.1), high(self.1)];
+        *block = must_cast([self.0, self.1]);
     }
 
     #[inline(always)]
