@@ -43,32 +43,22 @@ pub struct Way {
 /// and `(w + z)^2 / (c + z)`.
 #[inline(never)]
 pub fn exponents(dimensions: usize, bearings: &[Block], way: &Way, sums: &mut [Block]) -> (f64, f64) {
-    match dimensions {
-        3 => over::<3, 5>(bearings.as_chunks().0, way, sums),
-        _ => over::<2, 4>(bearings.as_chunks().0, way, sums),
-    }
-}
-
-#[inline(always)]
-fn over<const D: usize, const NUMBERS: usize>(
-    bearings: &[[Block; NUMBERS]],
-    way: &Way,
-    sums: &mut [Block],
-) -> (f64, f64) {
+    let count = numbers(dimensions);
     let s = Lanes::splat;
     let (power, weight, unit) = (s(way.power), s(way.weight), way.unit.map(s));
     let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
-    for (bearing, exponent) in bearings.iter().zip(sums) {
+    for (bearing, exponent) in bearings.chunks_exact(count).zip(sums) {
+        let Some((axes, [wide, over])) = bearing.split_last_chunk() else { break };
         // the squared lengths of the sum of two unit vectors and of their difference
         let (mut sum, mut difference) = (s(0.0), s(0.0));
-        for axis in 0..D {
-            let component = Lanes::load(&bearing[axis]);
-            let (together, apart) = (component + unit[axis], component - unit[axis]);
+        for (component, unit) in axes.iter().zip(unit) {
+            let component = Lanes::load(component);
+            let (together, apart) = (component + unit, component - unit);
             sum = sum + together * together;
             difference = difference + apart * apart;
         }
         let angle = Lanes::squared_angle(sum, difference);
-        let (wide, over) = (Lanes::load(&bearing[D]), Lanes::load(&bearing[D + 1]));
+        let (wide, over) = (Lanes::load(wide), Lanes::load(over));
         let wider = wide + angle;
         let evidence = Lanes::log2_ratio(wider * wider, wide * wide + over * angle);
         let ratio = Lanes::load(exponent).log2();

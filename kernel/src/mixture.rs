@@ -12,9 +12,11 @@
 //! leads to a sum in range leads to the same probabilities, to the bit.
 
 mod density;
+mod powers;
 mod terms;
 
 pub use density::{Densities, Density, own_sums, shared_sums};
+pub use powers::Powers;
 pub use terms::{Ball, Ellipsoid, Own};
 
 use super::vectors::{Block, Lanes, Shift, WIDTH};
@@ -57,7 +59,10 @@ pub trait Term<const D: usize>: Copy {
     /// The places of block `i`; none beyond the end.
     fn place(places: &Places<'_>, i: usize) -> Option<Self::Place>;
 
-    /// The exponent, in base 2, and the factor before the power.
+    /// What is a factor before the power at every place.
+    fn factor(&self) -> f64;
+
+    /// The exponent, in base 2, and all of the factor before the power.
     fn exponent_and_factor(&self, place: &Self::Place) -> (Lanes, Lanes);
 }
 
@@ -68,32 +73,28 @@ fn at(list: &[Block], i: usize) -> Option<Lanes> {
 }
 
 /// Writes `prior_i sum_n f_n 2^(e_n(i) - shift)` for every place, and returns their sum over all of them. Exponents are cut at
-/// 960 on either side of the shift, an integer.
+/// 960 on either side of the shift, an integer. `OWN` is whether a term's factor is another one at every place.
 #[inline(never)]
-fn weighted_sums<const D: usize, T: Term<D>>(
+fn weighted_sums<const D: usize, const OWN: bool, T: Term<D>>(
     terms: &[T],
     places: &Places<'_>,
     shift: f64,
     priors: &[Block],
+    powers: &mut Powers,
     weights: &mut [Block],
 ) -> f64 {
-    let Some((first, others)) = terms.split_first() else {
-        weights.fill([0.0; WIDTH]);
-        return 0.0;
-    };
     let shift = Shift::by(shift);
     let mut total = Lanes::splat(0.0);
     for (i, (prior, weight)) in priors.iter().zip(weights).enumerate() {
         let Some(place) = T::place(places, i) else { break };
-        let (mut term, mut rest) = (first, others.iter());
         let mut sum = Lanes::splat(0.0);
-        // the test comes last: engines compile such a loop to code that is a third faster
-        loop {
-            let (exponent, factor) = term.exponent_and_factor(&place);
-            sum = sum + factor * exponent.unscaled_exp2(&shift);
-            match rest.next() {
-                Some(next) => term = next,
-                None => break,
+        for terms in terms.chunks(2 * powers.0.len()) {
+            for (power, term) in powers.0.as_flattened_mut().iter_mut().zip(terms) {
+                let (exponent, factor) = term.exponent_and_factor(&place);
+                power.set::<OWN>(exponent.eighth_root(&shift), factor);
+            }
+            for (power, term) in powers.0.as_flattened().iter().zip(terms) {
+                sum = sum + power.factor::<OWN>(term.factor()) * power.power(Lanes::eighth_power);
             }
         }
         let weighted = sum * Lanes::load(prior).scaled();
@@ -156,6 +157,7 @@ pub trait Sums: Sized {
         places: &Places<'_>,
         shift: f64,
         priors: &[Block],
+        powers: &mut Powers,
         weights: &mut [Block],
     ) -> f64;
 
@@ -164,7 +166,7 @@ pub trait Sums: Sized {
 }
 
 macro_rules! sums {
-    ($($term:ident),*) => {$(
+    ($($term:ident $own:literal),*) => {$(
         impl Sums for $term {
             #[inline(never)]
             fn weighted_sums(
@@ -173,12 +175,13 @@ macro_rules! sums {
                 places: &Places<'_>,
                 shift: f64,
                 priors: &[Block],
+                powers: &mut Powers,
                 weights: &mut [Block],
             ) -> f64 {
                 if dimensions == 3 {
-                    weighted_sums::<3, Self>(terms, places, shift, priors, weights)
+                    weighted_sums::<3, $own, Self>(terms, places, shift, priors, powers, weights)
                 } else {
-                    weighted_sums::<2, Self>(terms, &places.in_the_plane(), shift, priors, weights)
+                    weighted_sums::<2, $own, Self>(terms, &places.in_the_plane(), shift, priors, powers, weights)
                 }
             }
 
@@ -191,7 +194,7 @@ macro_rules! sums {
     )*};
 }
 
-sums!(Ellipsoid, Own);
+sums!(Ellipsoid false, Own true);
 
 impl Ball {
     /// As [`Sums::weighted_sums`], in the plane.
@@ -201,9 +204,10 @@ impl Ball {
         places: &Places<'_>,
         shift: f64,
         priors: &[Block],
+        powers: &mut Powers,
         weights: &mut [Block],
     ) -> f64 {
-        weighted_sums::<2, Self>(terms, places, shift, priors, weights)
+        weighted_sums::<2, false, Self>(terms, places, shift, priors, powers, weights)
     }
 }
 
@@ -297,14 +301,27 @@ mod tests {
             }
             assert!((total / sum - 1.0).abs() < 1e-13, "{what}");
         };
-        let mut weights = vec![[0.0; WIDTH]; 3];
-        let total =
-            weighted_sums::<2, _>(&RATIOS.each_ref().map(|r| r.ball(origin)), &places, 0.0, &priors, &mut weights);
+        let (mut powers, mut weights) = (Powers::default(), vec![[0.0; WIDTH]; 3]);
+        let total = weighted_sums::<2, false, _>(
+            &RATIOS.each_ref().map(|r| r.ball(origin)),
+            &places,
+            0.0,
+            &priors,
+            &mut powers,
+            &mut weights,
+        );
         expect(&weights, total, "ball");
         let ellipsoids = RATIOS.each_ref().map(Ratio::ellipsoid);
-        let total = weighted_sums::<2, _>(&ellipsoids, &places, 0.0, &priors, &mut weights);
+        let total = weighted_sums::<2, false, _>(&ellipsoids, &places, 0.0, &priors, &mut powers, &mut weights);
         expect(&weights, total, "ellipsoid");
-        let total = weighted_sums::<2, _>(&RATIOS.each_ref().map(|r| r.own(2.5)), &places, 0.0, &priors, &mut weights);
+        let total = weighted_sums::<2, true, _>(
+            &RATIOS.each_ref().map(|r| r.own(2.5)),
+            &places,
+            0.0,
+            &priors,
+            &mut powers,
+            &mut weights,
+        );
         expect(&weights, total, "own");
         let mut logs = vec![[0.0; WIDTH]; 3];
         Ellipsoid::log2_sums(2, &RATIOS.each_ref().map(Ratio::ellipsoid), &places, &mut logs);
@@ -326,7 +343,8 @@ mod tests {
         let places = Places { coordinates: [&ones[..]; AXES], variances: [&[]; AXES], origin: [0.0; AXES] };
         let mut weights = [[0.0; WIDTH]];
         // d = (1, 3, 0): -0.5 + 0.25 * 3 + 0.5 - 9 + 3
-        let total = Ellipsoid::weighted_sums(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut weights);
+        let total =
+            Ellipsoid::weighted_sums(3, &[term], &places, 0.0, &[[1.0; WIDTH]], &mut Powers::default(), &mut weights);
         let expected = 0.5 * (-5.25f64).exp2();
         assert!(
             (weights[0][WIDTH - 1] / expected - 1.0).abs() < 1e-14
@@ -340,14 +358,30 @@ mod tests {
         let places = Places { coordinates: [x.as_slice(), &y, &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
         let terms = RATIOS.each_ref().map(Ratio::ellipsoid);
         let priors = vec![[1.0; WIDTH]; 3];
+        let mut powers = Powers::default();
         let (mut plain, mut shifted) = (vec![[0.0; WIDTH]; 3], vec![[0.0; WIDTH]; 3]);
-        let total = weighted_sums::<2, _>(&terms, &places, 0.0, &priors, &mut plain);
+        let total = weighted_sums::<2, false, _>(&terms, &places, 0.0, &priors, &mut powers, &mut plain);
         for shift in [-50.0, 13.0, 400.0] {
-            let other = weighted_sums::<2, _>(&terms, &places, shift, &priors, &mut shifted);
+            let other = weighted_sums::<2, false, _>(&terms, &places, shift, &priors, &mut powers, &mut shifted);
             assert_eq!(other * shift.exp2(), total);
             for (a, b) in plain.as_flattened().iter().zip(shifted.as_flattened()) {
                 assert_eq!(*a, b * shift.exp2());
             }
+        }
+    }
+
+    #[test]
+    fn more_terms_than_there_is_room_for_are_all_summed_up() {
+        let x = line(0.5);
+        let places = Places { coordinates: [x.as_slice(), &[], &[]], variances: [&[]; AXES], origin: [0.0; AXES] };
+        for count in [1, 7, 8, 9, 21] {
+            // powers of two, whose sum no digit of which is lost
+            let terms: Vec<_> =
+                (0..count).map(|n| Ellipsoid { factor: (n as f64).exp2(), ..Ellipsoid::default() }).collect();
+            let (mut powers, mut weights) = (Powers::default(), vec![[0.0; WIDTH]; 3]);
+            Ellipsoid::weighted_sums(1, &terms, &places, 0.0, &[[1.0; WIDTH]; 3], &mut powers, &mut weights);
+            let expected = (count as f64).exp2() - 1.0;
+            assert!(weights.as_flattened().iter().all(|w| (w / expected - 1.0).abs() < 1e-14), "{count} terms");
         }
     }
 
@@ -369,7 +403,8 @@ mod tests {
         let (mut logs, mut weights) = (vec![[7.0; WIDTH]; 3], vec![[7.0; WIDTH]; 3]);
         Ellipsoid::log2_sums(1, &[], &places, &mut logs);
         assert_eq!(logs, [[f64::NEG_INFINITY; WIDTH]; 3]);
-        let total = Ellipsoid::weighted_sums(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut weights);
+        let total =
+            Ellipsoid::weighted_sums(1, &[], &places, 0.0, &[[1.0; WIDTH]; 3], &mut Powers::default(), &mut weights);
         assert_eq!((total, weights), (0.0, vec![[0.0; WIDTH]; 3]));
     }
 }

@@ -215,7 +215,7 @@ fn normaliser(dimensions: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mixture::{Places, own_sums, shared_sums};
+    use crate::mixture::{Places, Powers, own_sums, shared_sums};
 
     /// `N(x; mean, covariance)` over the first `d` axes.
     fn density(d: usize, offset: &[f64; AXES], covariance: &Symmetric) -> f64 {
@@ -257,9 +257,9 @@ mod tests {
                     let mut sums = [[0.0; WIDTH]];
                     assert!(times.densities(d, &motion, noises, covariance, &mut room));
                     if covariance.is_some() {
-                        shared_sums(d, &room, &places, &[[2.0; WIDTH]], &mut sums);
+                        shared_sums(d, &room, &places, &[[2.0; WIDTH]], &mut Powers::default(), &mut sums);
                     } else {
-                        own_sums(d, &room, &places, &[[2.0; WIDTH]], &mut sums);
+                        own_sums(d, &room, &places, &[[2.0; WIDTH]], &mut Powers::default(), &mut sums);
                     }
                     for lane in 0..WIDTH {
                         let mut expected = 0.0;

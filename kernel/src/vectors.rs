@@ -214,52 +214,66 @@ impl Lanes {
     }
 
     /// The same, yet to be [`Lanes::scaled`], for sums: which is done once for all of their terms.
-    ///
-    /// The exponent is split into an integer and a rest `r` in `[-1/2, 1/2]`; `2^(r/8)` is a polynomial, three squarings
-    /// make it `2^r`, and the integer is added to the bits of its exponent. The shift is part of that integer, so it
-    /// changes no digit.
     #[inline(always)]
     #[must_use]
     pub fn unscaled_exp2(self, shift: &Shift) -> Self {
+        let (root, integer) = self.eighth_root(shift);
+        Self::eighth_power(root, integer)
+    }
+
+    /// The first half of `2^(x - shift)`: a multiple of `2^(r/8)`, a polynomial, where `r` in `[-1/2, 1/2]` is what is left of `x` over
+    /// an integer; and that integer. The shift is part of the integer, so it changes no digit.
+    #[inline(always)]
+    #[must_use]
+    pub fn eighth_root(self, shift: &Shift) -> (Self, Self) {
         let (s, rounder) = (Self::splat, Self::splat(shift.rounder));
         let x = self.at_most(s(shift.most)).at_least(s(shift.least));
         let integer = x + rounder;
         let r = x - (integer - rounder);
         let factor = |i: usize| (r + s(FACTORS[i][0])) * r + s(FACTORS[i][1]);
-        let p = factor(0) * factor(1) * factor(2);
-        let p = p * p;
+        (factor(0) * factor(1) * factor(2), integer)
+    }
+
+    /// The second half: three squarings, and the integer added to the bits of the exponent. Yet to be [`Lanes::scaled`], which is done
+    /// once for all terms of a sum.
+    #[inline(always)]
+    #[must_use]
+    pub fn eighth_power(root: Self, integer: Self) -> Self {
+        let p = root * root;
         let p = p * p;
         let p = p * p;
         Self(p.0.add_to_exponent(integer.0))
     }
 
-    /// `2^x` of each that is not above zero, to a relative 2e-13, yet to be [`Lanes::scaled_decay`]: as [`Lanes::unscaled_exp2`], with
-    /// five operations less. One of the polynomial's centres is an integer, so that rounding subtracts it.
+    /// The first half of `2^x`, of numbers that are not above zero, to a relative 2e-13: as [`Lanes::eighth_root`], with a
+    /// multiple of `2^(r/16)` and five operations less. One of the polynomial's centres is an integer, so that rounding subtracts it.
     #[inline(always)]
     #[must_use]
-    pub fn unscaled_decay(self) -> Self {
+    pub fn decay_root(self) -> (Self, Self) {
         let s = Self::splat;
         let x = self.at_least(s(-MOST_EXPONENT));
         let integer = x + s(ROUNDER);
         let r = x - (integer - s(ROUNDER + DECAY_CENTRE));
         let [first, apart, second, root] = DECAY;
         let other = r + s(apart);
-        let p = (r * r + s(first)) * (other * other + s(second)) * (r + s(root));
-        let p = p * p;
-        let p = p * p;
-        let p = p * p;
-        let p = p * p;
-        Self(p.0.add_to_exponent(integer.0))
+        ((r * r + s(first)) * (other * other + s(second)) * (r + s(root)), integer)
     }
 
-    /// What [`Lanes::unscaled_decay`] returns, or a sum of such, as powers of two.
+    /// The second half, yet to be [`Lanes::scaled_decay`].
+    #[inline(always)]
+    #[must_use]
+    pub fn decay_power(root: Self, integer: Self) -> Self {
+        Self::eighth_power(root * root, integer)
+    }
+
+    /// What [`Lanes::decay_power`] returns, or a sum of such, as powers of two.
     #[inline(always)]
     #[must_use]
     pub fn scaled_decay(self) -> Self {
         self * Self::splat(DECAY_SCALE)
     }
 
-    /// What [`Lanes::unscaled_exp2`] returns, or a sum of such, as powers of two.
+    /// What [`Lanes::eighth_power`] returns, or a sum of such, as powers of two.
     #[inline(always)]
     #[must_use]
     pub fn scaled(self) -> Self {
@@ -497,7 +511,11 @@ mod tests {
 
     #[test]
     fn decaying_powers_of_two_are_within_2e_13() {
-        let decay = |x: f64| one(|x| x.unscaled_decay().scaled_decay(), x);
+        let power = |x: Lanes| {
+            let (root, integer) = x.decay_root();
+            Lanes::decay_power(root, integer).scaled_decay()
+        };
+        let decay = |x: f64| one(power, x);
         let mut worst = 0.0f64;
         for k in 0..400_000 {
             let x = -950.0 * (f64::from(k) * 0.618_033_988_749_894_9).fract();

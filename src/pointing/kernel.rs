@@ -12,7 +12,7 @@ use super::endpoint::Nodes;
 use super::from_start::FromStart;
 use super::targets::Targets;
 use whither_kernel::bearings::{Way, exponents, numbers};
-use whither_kernel::mixture::{Densities, own_sums, shared_sums};
+use whither_kernel::mixture::{Densities, Powers, own_sums, shared_sums};
 use whither_kernel::vectors::{Block, raise};
 
 /// What is this many powers of two below the most probable does not matter.
@@ -33,6 +33,7 @@ pub struct Work {
     densities: Vec<Densities>,
     /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
+    powers: Powers,
 }
 
 /// What all destinations have in common after an observation.
@@ -57,7 +58,7 @@ impl Work {
         if !from_start.moderate {
             return None;
         }
-        let Self { densities, aside } = self;
+        let Self { densities, aside, powers } = self;
         let weights = targets.layout().buffer(aside, into);
         let d = now.nodes.dimensions();
         let (mut most, mut doubtful) = (f64::MIN, f64::MIN);
@@ -68,8 +69,8 @@ impl Work {
                 return None;
             }
             match &class.covariance {
-                Some(_) => shared_sums(d, densities, &places, over_start, weights),
-                None => own_sums(d, densities, &places, over_start, weights),
+                Some(_) => shared_sums(d, densities, &places, over_start, powers, weights),
+                None => own_sums(d, densities, &places, over_start, powers, weights),
             }
             let (best, worst) = exponents(d, &from_start.bearings[blocks.start * numbers(d)..], now.way, weights);
             (most, doubtful) = (most.max(best), doubtful.max(worst));

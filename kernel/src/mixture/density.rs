@@ -4,7 +4,7 @@
 //! Two densities have one mean: what is made of a place's offset from it, the products of its components, is made once for
 //! both. A line is a plane in which every place and mean has the coordinate zero and every density the variance one.
 
-use super::{AXES, HALF_LOG2_E, Places};
+use super::{AXES, HALF_LOG2_E, Places, Powers};
 use crate::small_gaussian::Symmetric;
 use crate::vectors::{Block, Lanes};
 
@@ -51,13 +51,15 @@ fn own<const D: usize>(density: &Density, products: &Symmetric<Lanes>, own: &[La
     (Lanes::splat(-HALF_LOG2_E) * square * inverse, Lanes::splat(density.factor) * inverse.sqrt())
 }
 
-/// Writes `factor_i sum_n f_n 2^e_n(i)` for every place; exponents are cut at -960.
+/// Writes `factor_i sum_n f_n 2^e_n(i)` for every place; exponents are cut at -960. `OWN` is whether the factor that `evaluate`
+/// gives is another one at every place.
 #[inline(always)]
-fn sums<const D: usize>(
+fn sums<const D: usize, const OWN: bool>(
     densities: &[Densities],
     evaluate: impl Fn(&Density, &Symmetric<Lanes>, &[Lanes; AXES]) -> (Lanes, Lanes),
     places: &Places<'_>,
     factors: &[Block],
+    powers: &mut Powers,
     into: &mut [Block],
 ) {
     let zero = Lanes::splat(0.0);
@@ -66,17 +68,23 @@ fn sums<const D: usize>(
         let [x, y, z] = places.coordinates.map(at);
         let variances = places.variances.map(at);
         let mut sum = zero;
-        for (mean, [first, second]) in densities {
-            let [x, y] = [x - Lanes::splat(mean[0]), y - Lanes::splat(mean[1])];
-            let mut products = [x * x, x * y, y * y, zero, zero, zero];
-            if D > 2 {
-                let z = z - Lanes::splat(mean[2]);
-                (products[3], products[4], products[5]) = (x * z, y * z, z * z);
+        for densities in densities.chunks(powers.0.len()) {
+            for ([one, other], (mean, [first, second])) in powers.0.iter_mut().zip(densities) {
+                let [x, y] = [x - Lanes::splat(mean[0]), y - Lanes::splat(mean[1])];
+                let mut products = [x * x, x * y, y * y, zero, zero, zero];
+                if D > 2 {
+                    let z = z - Lanes::splat(mean[2]);
+                    (products[3], products[4], products[5]) = (x * z, y * z, z * z);
+                }
+                let (exponent, factor) = evaluate(first, &products, &variances);
+                one.set::<OWN>(exponent.decay_root(), factor);
+                let (exponent, factor) = evaluate(second, &products, &variances);
+                other.set::<OWN>(exponent.decay_root(), factor);
             }
-            let (exponent, factor) = evaluate(first, &products, &variances);
-            sum = sum + factor * exponent.unscaled_decay();
-            let (exponent, factor) = evaluate(second, &products, &variances);
-            sum = sum + factor * exponent.unscaled_decay();
+            for ([one, other], (_, [first, second])) in powers.0.iter().zip(densities) {
+                sum = sum + one.factor::<OWN>(first.factor) * one.power(Lanes::decay_power);
+                sum = sum + other.factor::<OWN>(second.factor) * other.power(Lanes::decay_power);
+            }
         }
         (sum * Lanes::load(factor).scaled_decay()).store(into);
     }
@@ -90,11 +98,12 @@ pub fn shared_sums(
     densities: &[Densities],
     places: &Places<'_>,
     factors: &[Block],
+    powers: &mut Powers,
     into: &mut [Block],
 ) {
     match dimensions {
-        3 => sums::<3>(densities, shared::<3>, places, factors, into),
-        _ => sums::<2>(densities, shared::<2>, places, factors, into),
+        3 => sums::<3, false>(densities, shared::<3>, places, factors, powers, into),
+        _ => sums::<2, false>(densities, shared::<2>, places, factors, powers, into),
     }
 }
 
@@ -105,10 +114,11 @@ pub fn own_sums(
     densities: &[Densities],
     places: &Places<'_>,
     factors: &[Block],
+    powers: &mut Powers,
     into: &mut [Block],
 ) {
     match dimensions {
-        3 => sums::<3>(densities, own::<3>, places, factors, into),
-        _ => sums::<2>(densities, own::<2>, places, factors, into),
+        3 => sums::<3, true>(densities, own::<3>, places, factors, powers, into),
+        _ => sums::<2, true>(densities, own::<2>, places, factors, powers, into),
     }
 }

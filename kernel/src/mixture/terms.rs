@@ -77,6 +77,11 @@ impl Term<2> for Ball {
     }
 
     #[inline(always)]
+    fn factor(&self) -> f64 {
+        self.factor
+    }
+
+    #[inline(always)]
     fn exponent_and_factor(&self, ([x, y], square): &Self::Place) -> (Lanes, Lanes) {
         let exponent = Lanes::splat(self.curvature) * *square
             + Lanes::splat(self.slope[0]) * *x
@@ -95,6 +100,11 @@ macro_rules! terms {
             #[inline(always)]
             fn place(places: &Places<'_>, i: usize) -> Option<Self::Place> {
                 Some([at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*])
+            }
+
+            #[inline(always)]
+            fn factor(&self) -> f64 {
+                self.factor
             }
 
             #[inline(always)]
@@ -123,6 +133,11 @@ macro_rules! terms {
                     [at(places.coordinates[$first], i)?, $(at(places.coordinates[$rest], i)?),*],
                     [at(places.variances[$first], i)?, $(at(places.variances[$rest], i)?),*],
                 ))
+            }
+
+            #[inline(always)]
+            fn factor(&self) -> f64 {
+                self.factor
             }
 
             // over the common denominator, so that one division and one root serve all axes

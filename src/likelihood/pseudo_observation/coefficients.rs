@@ -3,7 +3,7 @@
 use super::classes::{Class, Classes};
 use super::pruning::Bounds;
 use std::ops::Range;
-use whither_kernel::mixture::{AXES, Ball, Ellipsoid, Own, Sums};
+use whither_kernel::mixture::{AXES, Ball, Ellipsoid, Own, Powers, Sums};
 use whither_kernel::ratios::Ratios;
 use whither_kernel::vectors::{Block, WIDTH};
 
@@ -17,6 +17,7 @@ pub struct Work {
     balls: Vec<Ball>,
     owns: Vec<Own>,
     bounds: Bounds,
+    powers: Powers,
 }
 
 impl Work {
@@ -37,7 +38,7 @@ impl Work {
         weights: &mut [Block],
     ) -> f64 {
         let d = classes.dimensions;
-        let Self { ratios, owns, balls, ellipsoids, bounds } = self;
+        let Self { ratios, owns, balls, ellipsoids, bounds, powers } = self;
         let round = class.size.is_some_and(|size| ratios.balls(d, &size, &origin, balls));
         match class.size {
             None => ratios.owns(owns),
@@ -58,9 +59,9 @@ impl Work {
             let places = classes.layout.places(blocks, origin);
             let (priors, weights) = (&classes.priors[blocks.clone()], &mut weights[blocks.clone()]);
             match class.size {
-                None => Own::weighted_sums(d, owns, &places, shift, priors, weights),
-                Some(_) if round => Ball::weighted_sums(balls, &places, shift, priors, weights),
-                Some(_) => Ellipsoid::weighted_sums(d, ellipsoids, &places, shift, priors, weights),
+                None => Own::weighted_sums(d, owns, &places, shift, priors, powers, weights),
+                Some(_) if round => Ball::weighted_sums(balls, &places, shift, priors, powers, weights),
+                Some(_) => Ellipsoid::weighted_sums(d, ellipsoids, &places, shift, priors, powers, weights),
             }
         };
         if boxes.is_empty() { part(&class.blocks) } else { bounds.sum(boxes, d, shift, part) }
