@@ -80,7 +80,7 @@ export class PointerPredictor {
     const values = readConstants(given.constants, constants());
     values[0] = readNone(given);
     reserve(1024 * read.ids.length);
-    this.#engine = new PointerEngine(values, read.sides, read.numbers);
+    this.#engine = new PointerEngine(values, read.numbers);
     this.#targets = read;
   }
 
@@ -201,7 +201,7 @@ export class PointerPredictor {
     const read = readTargets(targets, this.#targets);
     const engine = this.#live();
     reserve(1024 * read.ids.length);
-    engine.set_targets(read.sides, read.numbers);
+    engine.set_targets(read.numbers);
     this.#targets = read;
     this.#view = null;
   }

@@ -1,6 +1,6 @@
 import { WhitherError } from "#error";
-import { MOST_ITEMS } from "../core/list.js";
-import { type Check, fields, isAbsent, list, notNegative, number, positive, text } from "../core/read.js";
+import { isList, MOST_ITEMS } from "../core/list.js";
+import { type Check, type Fields, fields, isAbsent, list, notNegative, number, positive, text } from "../core/read.js";
 import type { PointerTarget as ScenarioTarget } from "./scenario.js";
 
 /** Something on a screen that a pointer may be going to. */
@@ -14,44 +14,30 @@ export interface Targets {
   readonly ids: readonly string[];
   /** The place of each id. */
   readonly places: ReadonlyMap<string, number>;
-  /** Width and height of each different size. */
-  readonly sides: Float64Array;
-  /** Of each target `x`, `y`, the place of its size among the sizes, its prior. */
+  /** Of each target `x`, `y`, width, height and prior. */
   readonly numbers: Float64Array;
 }
 
 const KEYS = ["id", "x", "y", "width", "height", "prior"];
 
-/** Of each width and height the place among the sizes. */
-class Sizes {
-  readonly sides: number[] = [];
-  /** A hash table: of each size one more than its place, where its hash points or the next free slot after that. */
-  readonly #slots: Int32Array;
-  readonly #size = new Float64Array(2);
-  readonly #words = new Int32Array(this.#size.buffer);
-
-  constructor(most: number) {
-    // at least half of it stays free
-    this.#slots = new Int32Array(2 << (32 - Math.clz32(most)));
-  }
-
-  place(width: number, height: number): number {
-    this.#size[0] = width;
-    this.#size[1] = height;
-    const { 0: a = 0, 1: b = 0, 2: c = 0, 3: d = 0 } = this.#words;
-    const last = this.#slots.length - 1;
-    for (let slot = mixed(mixed(mixed(mixed(0, a), b), c), d) & last; ; slot = (slot + 1) & last) {
-      const place = (this.#slots[slot] as number) - 1;
-      if (place < 0) return (this.#slots[slot] = this.sides.push(width, height) / 2) - 1;
-      if (this.sides[2 * place] === width && this.sides[2 * place + 1] === height) return place;
+/** Whether `fields` would return a value, with {@link KEYS}, found without a list of the keys and without a path. */
+function isUsual(value: unknown): value is Fields {
+  if (typeof value !== "object" || value === null || isList(value) || ArrayBuffer.isView(value)) return false;
+  for (const key in value) {
+    switch (key) {
+      case "id":
+      case "x":
+      case "y":
+      case "width":
+      case "height":
+      case "prior":
+        continue;
+      default:
+        // it may be inherited, or undefined
+        return false;
     }
   }
-}
-
-/** A hash with one word more; its upper bits, which depend on all of the word, are mixed into the lower ones. */
-function mixed(hash: number, word: number): number {
-  const product = Math.imul(hash ^ word, 0x9e3779b1);
-  return product ^ (product >>> 15);
+  return true;
 }
 
 /** A number from `least` up that passes `check`: the path, which takes longer than the check, is made where it may not. */
@@ -71,20 +57,20 @@ export function readTargets(given: unknown, before?: Targets): Targets {
   if (count > MOST_ITEMS)
     throw new WhitherError("too-large", "targets", `must have no more than ${MOST_ITEMS} items, has ${count}`);
   const ids: string[] = [];
-  const numbers = new Float64Array(4 * count);
-  const sizes = new Sizes(count);
+  const numbers = new Float64Array(5 * count);
   let total = 0;
   let same = before?.ids.length === count;
   for (let i = 0; i < count; i++) {
-    const target = fields(items[i], `targets[${i}]`, KEYS);
+    const item = items[i];
+    const target = isUsual(item) ? item : fields(item, `targets[${i}]`, KEYS);
     const given = target.id;
     const id = typeof given === "string" ? given : text(given, `targets[${i}].id`);
-    numbers[4 * i] = checked(target.x, -1e50, number, i, "x");
-    numbers[4 * i + 1] = checked(target.y, -1e50, number, i, "y");
-    const width = checked(target.width, 1e-50, positive, i, "width");
-    numbers[4 * i + 2] = sizes.place(width, checked(target.height, 1e-50, positive, i, "height"));
+    numbers[5 * i] = checked(target.x, -1e50, number, i, "x");
+    numbers[5 * i + 1] = checked(target.y, -1e50, number, i, "y");
+    numbers[5 * i + 2] = checked(target.width, 1e-50, positive, i, "width");
+    numbers[5 * i + 3] = checked(target.height, 1e-50, positive, i, "height");
     const { prior } = target;
-    total += numbers[4 * i + 3] = isAbsent(prior) ? 1 : checked(prior, 0, notNegative, i, "prior");
+    total += numbers[5 * i + 4] = isAbsent(prior) ? 1 : checked(prior, 0, notNegative, i, "prior");
     same &&= id === before?.ids[i];
     ids.push(id);
   }
@@ -92,7 +78,7 @@ export function readTargets(given: unknown, before?: Targets): Targets {
   if (count > 0 && !(total > 0)) {
     throw new WhitherError("out-of-range", "targets", `the priors must have a finite sum above 0, it is ${total}`);
   }
-  return { ids, places, sides: Float64Array.from(sizes.sides), numbers };
+  return { ids, places, numbers };
 }
 
 function placesOf(ids: readonly string[]): Map<string, number> {

@@ -30,6 +30,8 @@ pub(crate) mod from_start;
 pub(crate) mod kernel;
 pub mod parameters;
 mod posterior;
+#[cfg(any(test, feature = "wasm-pointing"))]
+pub(crate) mod sizes;
 pub(crate) mod space;
 mod state;
 pub(crate) mod targets;

@@ -5,13 +5,13 @@
 //! | list | numbers |
 //! |---|---|
 //! | `constants` | as [`constants`] returns them |
-//! | `sides` | width and height of each different size of targets |
-//! | `targets` | of each target `x`, `y`, the place of its size in `sides`, its prior |
+//! | `targets` | of each target `x`, `y`, width, height, prior |
 
 use crate::pointing::Pointing;
 use crate::pointing::defaults::{OBSERVATION_NOISE, REMAINING};
 use crate::pointing::entry_time::EntryTime;
 use crate::pointing::parameters::PointingConstants;
+use crate::pointing::sizes::Sizes;
 use crate::pointing::space::Plane;
 use crate::pointing::targets::{Extent, Target, Targets};
 use crate::posterior::shares;
@@ -43,13 +43,13 @@ pub struct PointerEngine {
 impl PointerEngine {
     /// Before the first observation.
     #[wasm_bindgen(constructor)]
-    pub fn new(constants: &[f64], sides: &[f64], targets: &[f64]) -> PointerEngine {
+    pub fn new(constants: &[f64], targets: &[f64]) -> PointerEngine {
         let Constants { none, parameters, deviations, .. } = Constants::read(constants);
         Self {
             parameters: Arc::new(parameters),
             variances: deviations.map(|deviation| deviation * deviation),
             prior_none: none,
-            targets: read_targets(sides, targets),
+            targets: read_targets(targets),
             movement: None,
             probabilities: Vec::new(),
             none,
@@ -63,8 +63,8 @@ impl PointerEngine {
     }
 
     /// Other targets, in mid-movement too.
-    pub fn set_targets(&mut self, sides: &[f64], targets: &[f64]) {
-        self.targets = read_targets(sides, targets);
+    pub fn set_targets(&mut self, targets: &[f64]) {
+        self.targets = read_targets(targets);
         self.stale = true;
         if let Some(movement) = &mut self.movement {
             movement.replan(Arc::clone(&self.targets));
@@ -254,12 +254,17 @@ impl Constants {
     }
 }
 
-fn read_targets(sides: &[f64], targets: &[f64]) -> Arc<Targets> {
-    let extents = sides.as_chunks().0.iter().map(|&sides| Extent::of_box(sides));
-    let list = targets.as_chunks().0.iter().map(|&[x, y, size, prior]| Target {
-        center: [x, y, 0.0],
-        extent: size as usize,
-        prior,
-    });
-    Arc::new(Targets::new(2, extents.collect(), list))
+fn read_targets(flat: &[f64]) -> Arc<Targets> {
+    let targets = flat.as_chunks().0;
+    let mut sizes = Sizes::among(targets.len());
+    let list: Vec<_> = targets
+        .iter()
+        .map(|&[x, y, width, height, prior]| Target {
+            center: [x, y, 0.0],
+            extent: sizes.number([width, height]),
+            prior,
+        })
+        .collect();
+    let extents = sizes.list().iter().map(|&sides| Extent::of_box(sides));
+    Arc::new(Targets::new(2, extents.collect(), list.into_iter()))
 }

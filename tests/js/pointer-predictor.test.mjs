@@ -283,3 +283,51 @@ test("without any target nothing is probable but none of them", () => {
   );
   isResting(empty, 1);
 });
+
+test("targets of any kind of object, with the same errors as others", () => {
+  const target = { id: "a", x: 200, y: 300, width: 80, height: 60 };
+  class Icon {
+    #x = 200;
+    id = "a";
+    y = 300;
+    width = 80;
+    height = 60;
+    get x() {
+      return this.#x;
+    }
+  }
+  const others = { ...target, id: "b", x: 700, prior: null };
+  const expected = new PointerPredictor([target, others]);
+  const kinds = [
+    new Icon(),
+    Object.create({ ...target, colour: "red" }),
+    Object.assign(Object.create({ colour: "red" }), target),
+    { ...target, colour: undefined, prior: undefined },
+    Object.freeze({ [Symbol("mine")]: 1, height: 60, width: 80, y: 300, x: 200, id: "a" }),
+  ];
+  for (const kind of kinds) {
+    const pointer = new PointerPredictor([kind, others]);
+    for (const [k, p] of [pointer, expected].entries()) {
+      p.reset();
+      for (const time of [0, 0.02]) p.observe(time, [500 - 1000 * time, 400]);
+      assert.equal(p.best.index, 0, `${k}`);
+    }
+    same(pointer.probabilities(), expected.probabilities());
+    pointer.free();
+  }
+  const before = [...expected.probabilities()];
+  const unknown = 'unknown key "colour", expected one of "id", "x", "y", "width", "height", "prior"';
+  const wrong = [
+    [{ ...target, colour: "red" }, "unknown-key", "targets[1].colour", unknown],
+    [{ ...target, id: 1, colour: null }, "unknown-key", "targets[1].colour", unknown],
+    [Object.assign([], target), "wrong-type", "targets[1]", "must be an object, got []"],
+    [Object.assign(new Uint8Array(1), target), "wrong-type", "targets[1]", "must be an object, got [0]"],
+    [null, "wrong-type", "targets[1]", "must be an object, got nothing"],
+    [{ ...target, id: "b" }, "duplicate-id", "targets[1].id", 'the id "b" is taken by targets[0]'],
+    [{ ...target, width: 0 }, "out-of-range", "targets[1].width", "must be greater than 0, got 0"],
+  ];
+  for (const [bad, ...error] of wrong) {
+    refuses(() => expected.setTargets([others, bad]), ...error);
+    same(expected.probabilities(), before);
+  }
+});
