@@ -303,13 +303,14 @@ pub fn mix(numbers: &mut [f64], factor: f64, weights: &[f64], even: f64) {
     }
 }
 
-/// Turns exponents into `factor 2^(exponent - shift)`, and returns the sum; as [`Lanes::exp2`], with the integer nearest
-/// to `shift`.
+/// Turns exponents into `factor 2^(exponent - shift)`, those beyond the factors into the power alone, and returns the sum; as
+/// [`Lanes::exp2`], with the integer nearest to `shift`.
 #[inline(never)]
 pub fn raise(exponents: &mut [Block], factors: &[Block], shift: f64) -> f64 {
     let shift = Shift::by(shift);
     let mut total = Lanes::splat(0.0);
-    for (exponent, factor) in exponents.iter_mut().zip(factors) {
+    for (i, exponent) in exponents.iter_mut().enumerate() {
+        let factor = factors.get(i).unwrap_or(&[1.0; WIDTH]);
         let raised = Lanes::load(exponent).exp2(&shift) * Lanes::load(factor);
         raised.store(exponent);
         total = total + raised;

@@ -14,10 +14,10 @@ pub fn log_start(start: &Start, offset: &Vector, onset: &Onset) -> f64 {
     -0.5 * start.exponent * (dot(offset, offset) + core).ln()
 }
 
-/// `ln (m^2 / (m^2 + near^2))`, `m` the distance from the start in widths and heights of the target: a movement seldom ends
+/// `m^2 / (m^2 + near^2)`, `m` the distance from the start in widths and heights of the target: a movement seldom ends
 /// where it began.
 #[must_use]
-pub fn log_near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
+pub fn near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     let mut distance = 0.0;
     for (component, side) in offset.iter().zip(&extent.sides).take(dimensions) {
         let share = component / side;
@@ -25,7 +25,7 @@ pub fn log_near(near: f64, offset: &Vector, extent: &Extent, dimensions: usize) 
     }
     // a target right under the start keeps a chance
     distance += extent.square_of_unit;
-    (distance / (distance + near * near)).ln()
+    distance / (distance + near * near)
 }
 
 /// The direction from the start to where the pointer is now, and how much it counts.
@@ -81,19 +81,14 @@ impl<'a, S: Space> DirectionNow<'a, S> {
     }
 }
 
-/// `z`, the variance of the direction from the start to a target at `offset`.
+/// `z`, the variance of the direction from the start to a target at `offset`: `(tr(S) o^T o - o^T S o) / (d - 1) / (o^T o + 1)^2`.
 #[must_use]
 pub fn angular_variance(offset: &Vector, extent: &Extent, dimensions: usize) -> f64 {
     if dimensions == 1 {
         return 0.0;
     }
-    let (mut trace, mut towards) = (0.0, 0.0);
-    for j in 0..dimensions {
-        trace += extent.variance(j, j);
-        for k in 0..dimensions {
-            towards += offset[j] * extent.variance(j, k) * offset[k];
-        }
-    }
-    let square = dot(offset, offset);
-    (trace * square - towards) / (dimensions as f64 - 1.0) / (square + 1.0).powi(2)
+    let ([x, y, z], [xx, xy, yy, xz, yz, zz]) = (*offset, extent.covariance);
+    let mixed = x * (y * xy + z * xz) + y * z * yz;
+    let spread = xx * (y * y + z * z) + yy * (x * x + z * z) + zz * (x * x + y * y) - 2.0 * mixed;
+    spread / (dimensions as f64 - 1.0) / (dot(offset, offset) + 1.0).powi(2)
 }

@@ -39,7 +39,7 @@ pub(crate) mod targets;
 use crate::math::log_sum_exp::share;
 use course::{Course, Onset};
 use endpoint::Nodes;
-use evidence::{DirectionNow, log_near, log_start};
+use evidence::{DirectionNow, log_start, near};
 use from_start::FromStart;
 use kernel::{Now, Total, Work};
 use parameters::PointingConstants;
@@ -165,11 +165,11 @@ impl<S: Space> Pointing<S> {
         let (mut known, mut log_prior) = (f64::NAN, f64::NAN);
         for (i, (value, &prior)) in into.iter_mut().zip(priors).enumerate() {
             let offset = minus(&self.targets.center(i), &self.course.start);
-            let near = log_near(self.parameters.near, &offset, self.targets.extent(i), d);
+            let log_near = near(self.parameters.near, &offset, self.targets.extent(i), d).ln();
             if prior != known {
                 (known, log_prior) = (prior, (prior / total).ln());
             }
-            *value += onset.share * near + log_prior;
+            *value += onset.share * log_near + log_prior;
         }
         share(into).map(|log_scale| Total { total: 1.0, log_scale })
     }

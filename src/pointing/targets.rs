@@ -22,7 +22,11 @@ impl Extent {
     #[must_use]
     pub fn new(covariance: Symmetric, sides: Vector, dimensions: usize) -> Self {
         let volume: f64 = sides.iter().take(dimensions).product();
-        Self { covariance, sides, square_of_unit: (-2.0 / dimensions as f64 * volume.ln()).exp() }
+        let square_of_unit = match dimensions {
+            2 => 1.0 / volume,
+            d => (-2.0 / d as f64 * volume.ln()).exp(),
+        };
+        Self { covariance, sides, square_of_unit }
     }
 
     /// A uniform density over a box on a screen: variances of `side^2 / 12`.
