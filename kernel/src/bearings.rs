@@ -16,6 +16,9 @@ const CERTAIN: f64 = -500.0;
 /// A line is a plane in which nothing lies beside it.
 const PLANE: usize = 2;
 
+/// How many blocks are worked on together, in loops of few operations each: processors do not look far ahead.
+const TOGETHER: usize = 16;
+
 /// Much more than the difference of any two exponents.
 const FAR: f64 = 1e9;
 
@@ -43,30 +46,37 @@ pub struct Way {
 /// and `(w + z)^2 / (c + z)`.
 #[inline(never)]
 pub fn exponents(dimensions: usize, bearings: &[Block], way: &Way, sums: &mut [Block]) -> (f64, f64) {
-    let count = numbers(dimensions);
-    let s = Lanes::splat;
+    let (s, count) = (Lanes::splat, numbers(dimensions));
     let (power, weight, unit) = (s(way.power), s(way.weight), way.unit.map(s));
+    for sum in &mut *sums {
+        Lanes::load(sum).log2().store(sum);
+    }
     let (mut most, mut doubtful) = (s(f64::MIN), s(f64::MIN));
-    for (bearing, exponent) in bearings.chunks_exact(count).zip(sums) {
-        let Some((axes, [wide, over])) = bearing.split_last_chunk() else { break };
-        // the squared lengths of the sum of two unit vectors and of their difference
-        let (mut sum, mut difference) = (s(0.0), s(0.0));
-        for (component, unit) in axes.iter().zip(unit) {
-            let component = Lanes::load(component);
-            let (together, apart) = (component + unit, component - unit);
-            sum = sum + together * together;
-            difference = difference + apart * apart;
+    let mut angles = [Block::default(); TOGETHER];
+    for (bearings, ratios) in bearings.chunks(TOGETHER * count).zip(sums.chunks_mut(TOGETHER)) {
+        for (bearing, into) in bearings.chunks_exact(count).zip(&mut angles) {
+            // the squared lengths of the sum of two unit vectors and of their difference
+            let (mut sum, mut difference) = (s(0.0), s(0.0));
+            for (component, unit) in bearing[..count - 2].iter().zip(unit) {
+                let component = Lanes::load(component);
+                let (together, apart) = (component + unit, component - unit);
+                sum = sum + together * together;
+                difference = difference + apart * apart;
+            }
+            Lanes::squared_angle(sum, difference).store(into);
         }
-        let angle = Lanes::squared_angle(sum, difference);
-        let (wide, over) = (Lanes::load(wide), Lanes::load(over));
-        let wider = wide + angle;
-        let evidence = Lanes::log2_ratio(wider * wider, wide * wide + over * angle);
-        let ratio = Lanes::load(exponent).log2();
-        let product = power * ratio + weight * evidence;
-        most = product.at_least(most);
-        // below all that is certain unless the ratio is below `CERTAIN`
-        doubtful = product.at_most(s(FAR * CERTAIN) - s(FAR) * ratio).at_least(doubtful);
-        product.store(exponent);
+        for ((bearing, angle), exponent) in bearings.chunks_exact(count).zip(&angles).zip(ratios) {
+            let (angle, wide, over) =
+                (Lanes::load(angle), Lanes::load(&bearing[count - 2]), Lanes::load(&bearing[count - 1]));
+            let wider = wide + angle;
+            let evidence = Lanes::log2_ratio(wider * wider, wide * wide + over * angle);
+            let ratio = Lanes::load(exponent);
+            let product = power * ratio + weight * evidence;
+            most = product.at_least(most);
+            // below all that is certain unless the ratio is below `CERTAIN`
+            doubtful = product.at_most(s(FAR * CERTAIN) - s(FAR) * ratio).at_least(doubtful);
+            product.store(exponent);
+        }
     }
     (most.most(), doubtful.most())
 }
