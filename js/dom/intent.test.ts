@@ -642,11 +642,11 @@ describe("intent: a page that interferes", () => {
       ["removing another target", (watcher, _, [, b]) => watcher.remove(b as Element)],
     ] as readonly (readonly [string, Interfere])[]) {
       it(`by ${what} in a ${by} hears of no other target that is as probable`, async () => {
-        const options = { threshold: 0.3, load: "eager", predictor: () => EVENLY as never, reasons: {} } as const;
+        const options = { threshold: 0.1, load: "eager", predictor: () => EVENLY as never, reasons: {} } as const;
         const { page, watcher, log, marked } = watched(by, interfere, options);
         await watcher.ready;
         page.advance(20);
-        for (const x of [400, 420, 440]) {
+        for (const x of [440, 420, 400]) {
           page.point("pointermove", x, 300);
           page.advance(20);
         }

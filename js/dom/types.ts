@@ -36,7 +36,7 @@ export type Reason = "pointer" | "hover" | "press" | "focus" | "keyboard" | "tou
 
 /** Which signs count; what is left out has its default. */
 export interface Reasons {
-  /** The posterior passed the threshold; with `after` it has to hold that many milliseconds. @defaultValue true */
+  /** The posterior passed what the threshold asks for; with `after` it has to hold that many milliseconds. @defaultValue true */
   readonly pointer?: boolean | { readonly after: number } | undefined;
   /** A pointer has been over it for so many milliseconds. @defaultValue { after: 130 } */
   readonly hover?: boolean | { readonly after: number } | undefined;
@@ -157,7 +157,10 @@ export type MakePredictor = (
 export interface WatchOptions<T extends WatchTarget = WatchTarget> {
   /** Where a selector looks. @defaultValue document */
   readonly root?: ParentNode | undefined;
-  /** The probability at which a pointer means a target, above 0 and at most 1. @defaultValue 0.8 */
+  /**
+   * The probability at which a pointer means a target that it moves towards, 50 px before its edge, above 0 and at most 1. Farther away more
+   * is asked for, nearer less: its odds times `((d + 10)/60)^0.6` at `d` px. @defaultValue 0.8
+   */
   readonly threshold?: number | undefined;
   /** The probability below which it has turned away, at most the threshold. @defaultValue 0.5, or 0.625 of the threshold */
   readonly release?: number | undefined;

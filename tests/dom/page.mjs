@@ -56,7 +56,8 @@ export async function reach(hand, goal, { from = AWAY, ...options } = {}) {
 
 /**
  * The page of a scripted posterior: `watcher` watches the row of eight with `options` (text), with a model that
- * returns what `step` is given. `step` moves the pointer by 30 px and returns after the frame that has the posterior.
+ * returns what `step` is given. `step` moves the pointer up to 50 px below the most probable one, where as much is asked for as the threshold
+ * has it, and returns after the frame that has the posterior.
  */
 export async function scripted(site, options = "{}", body = ROW) {
   const opened = await open(site, body, {
@@ -163,7 +164,7 @@ function prepare() {
   window.exactNow = () => Math.ceil((performance.now() * 64) / 1000) * (1000 / 64);
 
   let current = {};
-  let place = 0;
+  let x = 150;
   /** A model that returns the posterior of the last step; `made` and `freed` count its instances, `given` are its last targets. */
   window.scriptedPredictor = (targets, options) => {
     let now = targets;
@@ -194,8 +195,14 @@ function prepare() {
 
   window.scriptedStep = async (posterior) => {
     current = posterior;
-    place = (place + 1) % 25;
-    point("pointermove", [performance.now(), 60 + 30 * place, 620 + 5 * (place % 2)]);
+    const [most] = Object.keys(posterior).sort((one, other) => posterior[other] - posterior[one]);
+    if (most) x = 150 + 100 * "abcdefgh".indexOf(most);
+    const now = performance.now();
+    const list = [
+      [now - 40, x, 520],
+      [now, x, 430],
+    ];
+    point("pointermove", list[1], { list });
     await frames(3);
   };
 }

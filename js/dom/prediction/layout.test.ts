@@ -64,7 +64,7 @@ describe("layout", () => {
   });
 
   it("is not outdated by what a watcher writes, and is by other attributes", async () => {
-    const { buttons, watcher, step, reads } = await open(200, { threshold: 0.01 });
+    const { buttons, watcher, step, reads } = await open(200, { threshold: 0.001 });
     const button = buttons.at(-1) as Element & TestElement;
     step();
     assert.ok(watcher.getSnapshot().intended.length > 0, "marks were written");

@@ -171,6 +171,17 @@ describe("segmenter", () => {
 });
 
 describe("movement", () => {
+  it("heads where it has gone in the last 30 ms, or since the sample before", () => {
+    const course = (...samples: readonly Sample[]) => {
+      const movement = new Movement(samples[0] as Sample, []);
+      for (const sample of samples) movement.add(sample);
+      return [movement.at, movement.heading];
+    };
+    assert.deepEqual(course(at(0, 5, 6)), [at(0, 5, 6), { x: 0, y: 0 }]);
+    assert.deepEqual(course(at(0, 0), at(0.01, 9), at(0.02, 9, 1), at(0.04, 9, 4)), [at(0.04, 9, 4), { x: 0, y: 4 }]);
+    assert.deepEqual(course(at(0, 0), at(0.109, 50), at(0.218, 40, 3)), [at(0.218, 40, 3), { x: -10, y: 3 }]);
+  });
+
   const [fuel, seats] = [{ key: "0" } as Target, { key: "1" } as Target];
 
   /** A movement that begins on the fuel at 50 px, then goes to these places, over these targets. */

@@ -38,6 +38,9 @@ const ONSET = 0.12;
 /** No more samples of a movement are kept. */
 const MOST_SAMPLES = 8192;
 
+/** Where a pointer is heading is read from so long before its last sample, or from one sample to the next (seconds). */
+const HEADING = 0.03;
+
 export interface Cut {
   /** The samples to observe: none while the pointer rests or repeats itself. */
   readonly samples: readonly Sample[];
@@ -130,6 +133,20 @@ export class Movement implements Course {
     this.#start = this.#at = start;
     this.#origin = this.#over = over;
     this.#left = over.length === 0;
+  }
+
+  /** Where it is now. */
+  get at(): Sample {
+    return this.#at;
+  }
+
+  /** How far it came lately: the direction that it has now. */
+  get heading(): { readonly x: number; readonly y: number } {
+    const { time, x, y } = this.#at;
+    let place = this.samples.length - 1;
+    while (place > 0 && time - (this.samples[place] as Sample).time < HEADING) place--;
+    const from = this.samples[place] ?? this.#at;
+    return { x: x - from.x, y: y - from.y };
   }
 
   /** The targets that it began on and never left; empty where there is none. */

@@ -155,7 +155,7 @@ export class Prediction {
       if (!known) continue;
       const best = posterior.best();
       if (best && fresh) track.movement?.note(best, posterior.probability(best));
-      track.candidates.consider(track.hand, posterior, platform.now(), settings(), intents);
+      track.candidates.consider(track.hand, track.movement, posterior, platform.now(), settings(), intents);
     }
     return true;
   }

@@ -23,7 +23,7 @@ export interface Model {
 export const NONE = 0.05;
 
 export interface Settings extends Model {
-  /** An icon as probable as this is ringed. */
+  /** An icon as probable as this is ringed, 50 px before its edge. */
   readonly threshold: number;
 }
 
