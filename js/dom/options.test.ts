@@ -11,7 +11,7 @@ const DEFAULTS = {
   root: ROOT,
   threshold: 0.8,
   release: 0.5,
-  none: 0.05,
+  none: 0.2,
   rest: 300,
   target: {},
   reasons: { pointer: 0, hover: 130, viewport: null, keyboard: null, press: true, focus: true, touch: true, scroll: true },

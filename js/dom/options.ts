@@ -145,7 +145,7 @@ const OPTIONS: Table = {
   root: [has("querySelectorAll", "a document or a root")],
   threshold: [share, 0.8],
   release: [share],
-  none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.05],
+  none: [within("must be at least 0 and less than 1", (x) => x >= 0 && x < 1), 0.2],
   rest: [positive, 300],
   target: [(value, path) => (typeof value === "function" ? value : readTarget(value, path)), {}],
   reasons: [(value, path) => read(value, REASONS, path), read(undefined, REASONS, "")],

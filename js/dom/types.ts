@@ -164,7 +164,7 @@ export interface WatchOptions<T extends WatchTarget = WatchTarget> {
   readonly threshold?: number | undefined;
   /** The probability below which it has turned away, at most the threshold. @defaultValue 0.5, or 0.625 of the threshold */
   readonly release?: number | undefined;
-  /** The prior probability that a movement goes to none of the targets, at least 0 and less than 1. @defaultValue 0.05 */
+  /** The prior probability that a movement goes to none of the targets, at least 0 and less than 1. @defaultValue 0.2 */
   readonly none?: number | undefined;
   /** Milliseconds without displacement that end a movement. @defaultValue 300 */
   readonly rest?: number | undefined;

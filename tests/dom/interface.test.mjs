@@ -29,11 +29,11 @@ describe("watch", () => {
     });
 
     it("gives a changed prior of none to the model, and its constants", async () => {
-      const { page, step, close } = await scripted(site, "{ none: 0.2, constants: { motion: { noise: 700 } } }");
+      const { page, step, close } = await scripted(site, "{ none: 0.25, constants: { motion: { noise: 700 } } }");
       await step({});
       await step({});
       assert.deepEqual(await page.evaluate(() => scriptedPredictor.options), {
-        none: 0.2,
+        none: 0.25,
         constants: { motion: { noise: 700 } },
       });
       await page.evaluate(() => watcher.update({ none: 0.3 }));

@@ -54,7 +54,7 @@ describe("layout", () => {
   });
 
   it("is read of all targets when one of those that are probed has moved, or a change is reported", async () => {
-    const { page, buttons, watcher, step, reads } = await open(200);
+    const { page, buttons, watcher, step, reads } = await open(200, { none: 0 });
     const leading = watcher.best?.target as Element & TestElement;
     leading.box = { ...leading.box, y: 5 };
     assert.ok(reads(step) >= 200, "of the most probable one");

@@ -1,7 +1,7 @@
 // The options that intents are measured with.
 
 const THRESHOLDS = [0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95];
-const NONES = [0, 0.02, 0.05, 0.1, 0.2];
+const NONES = [0, 0.05, 0.1, 0.2, 0.3, 0.5];
 const AFTERS = [0, 25, 50, 100];
 const RELEASES = [0.1, 0.2, 0.3];
 
