@@ -1,12 +1,13 @@
-// `npm run evaluate -- --intents`, on made-up movements of which it is known what is intended.
+// `npm run evaluate -- --intents` and `--wandering`, on made-up movements of which it is known what is intended.
 import { after, before, describe, test } from "node:test";
 import assert from "node:assert/strict";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { capture } from "../../scripts/run.mjs";
-import { judge } from "../../tools/evaluate/intents/figures.mjs";
+import { intervalOf, judge } from "../../tools/evaluate/intents/figures.mjs";
 import { approachOf } from "../../tools/evaluate/intents/replay.mjs";
+import { chain } from "../../tools/evaluate/intents/wandering.mjs";
 
 const program = "tools/evaluate/intents/intents.mjs";
 
@@ -115,6 +116,85 @@ describe("the intents of recorded movements", () => {
     const nothing = await capture("node", [program, file]);
     assert.equal(nothing.code, 1);
     assert.match(nothing.output, /nothing to score/);
+  });
+});
+
+describe("a user's movements in one stream", () => {
+  const seconds = (movements) => movements.reduce((sum, { begin, end }) => sum + end - begin, 0);
+
+  test("each begins where and when the last one ended, after a pause, and its targets move with it", () => {
+    const movements = chain([straight, missing, turning, straight], "ann");
+    assert.equal(movements.length, 3);
+    for (let i = 1; i < movements.length; i++) {
+      const [before, { begin, samples }] = [movements[i - 1], movements[i]];
+      assert.equal(begin, before.end);
+      assert.deepEqual(samples[0].slice(1), before.samples.at(-1).slice(1));
+    }
+    for (const { press, end, samples, draw, entry, targets: moved, target } of movements) {
+      assert.ok(end - press >= 0.1 && end - press <= 2 && draw >= 0 && draw < 1);
+      assert.equal(press, samples.at(-1)[0]);
+      assert.ok(entry > samples[0][0] && entry < press);
+      const [[, x, y], [tx, ty, ...size]] = [samples.at(-1), moved[target]];
+      assert.ok(Math.hypot(x - tx, y - ty) < 1e-9);
+      assert.deepEqual(size, [40, 40]);
+    }
+  });
+
+  test("is the same in every run, and another for another user", () => {
+    const draws = (user) => chain([straight, turning, straight], user).map(({ draw, end }) => [draw, end]);
+    assert.deepEqual(draws("ann"), draws("ann"));
+    assert.notDeepEqual(draws("ann"), draws("bob"));
+  });
+
+  test("has wrong intents of what is passed over, in a minute of it, and right ones where there is a press", async () => {
+    const folder = await mkdtemp(join(tmpdir(), "whither-streams-"));
+    const file = join(folder, "made-up.jsonl");
+    const tracks = [
+      ...Array.from({ length: 12 }, () => ({ ...turning, user: "bob" })),
+      ...Array.from({ length: 8 }, () => straight),
+    ];
+    await writeFile(file, [...tracks, inSpace].map((track) => JSON.stringify(track)).join("\n"));
+    const report = join(folder, "report.json");
+    const run = await capture("node", [program, "--wandering", "--users", "--json", report, file]);
+    assert.equal(run.code, 0, run.output);
+    assert.match(run.output, /made-up\.jsonl:21: samples\[0\].*; skipped/);
+    const [{ set, shares }] = JSON.parse(await readFile(report, "utf8")).wandering;
+    await rm(folder, { recursive: true });
+    assert.equal(set, "made-up");
+    const bobs = chain(
+      tracks.filter(({ user }) => user === "bob"),
+      "bob",
+    );
+    const anns = chain(
+      tracks.filter(({ user }) => user === "ann"),
+      "ann",
+    );
+    for (const { share, rows, users } of shares) {
+      const wandered = [...anns, ...bobs].filter(({ draw }) => draw < share).length;
+      const [all, bob, ann] = [rows, users.bob, users.ann].map(([first]) => first);
+      assert.deepEqual([all.movements, all.wandered], [20 - wandered, wandered]);
+      // the first target is passed over on every way to the second one, pressed or not
+      assert.ok(bob.false >= 0.8 && bob.false <= 1.3, `${bob.false}`);
+      const wrong = bob.wrong * bob.movements + bob.false * bob.wandered;
+      assert.ok(Math.abs(bob.wrongPerMinute - (60 * wrong) / seconds(bobs)) < 1e-9, bob.wrongPerMinute);
+      assert.deepEqual([ann.early, ann.first, ann.before, ann.wrong], [1, 1, 1, 0]);
+      const own = ann.movements / (ann.movements + ann.false * ann.wandered);
+      assert.ok(Math.abs(ann.right - own) < 1e-9, `${ann.right}`);
+    }
+    const [half, most] = shares;
+    assert.ok(half.rows[0].wandered < most.rows[0].wandered);
+    const line = (start) => run.output.split("\n").filter((each) => each.startsWith(`| ${start}`)).length;
+    assert.deepEqual(["default: threshold", "threshold 0.9, none 0.5", "bob"].map(line), [2, 2, 2]);
+  });
+
+  test("an interval is over users that are drawn, always the same ones", () => {
+    const mean = (drawn) => drawn.reduce((sum, x) => sum + x, 0) / drawn.length;
+    const users = Array.from({ length: 50 }, (_, i) => i / 49);
+    const [low, high] = intervalOf(users, mean);
+    // a mean of 50 numbers spread evenly over 0 to 1 deviates by .042
+    assert.ok(low > 0.4 && low < 0.44 && high > 0.56 && high < 0.6, `${low} ${high}`);
+    assert.deepEqual(intervalOf(users, mean), [low, high]);
+    assert.equal(intervalOf([1], mean), null);
   });
 });
 

@@ -1,5 +1,10 @@
 // What intents were worth: counted for each movement, summed by user and by set.
 
+import { randomOf } from "./random.mjs";
+
+/** How often users are drawn for an interval. */
+const DRAWS = 1000;
+
 /**
  * Of one movement: `wrong`, how many intents before the press were of other targets than the pressed one; whether that was intended
  * `before` the press, `early` (before the pointer came to it), and early as the `first` of all; whether the early intent was still
@@ -70,6 +75,60 @@ export class Sums {
       withheldPerMinute: (60 * this.withheld) / seconds,
     };
   }
+}
+
+/** Sums over the movements of streams, of which some wander. */
+export class StreamSums {
+  pressed = new Sums();
+  wandered = 0;
+  seconds = 0;
+  /** Intents of what was not pressed, and those of them in movements that wander. */
+  wrong = 0;
+  false = 0;
+
+  /** Adds a movement, with its score for one of the options. */
+  add({ wanders, seconds }, score) {
+    this.seconds += seconds;
+    this.wrong += score.wrong;
+    if (wanders) {
+      this.wandered++;
+      this.false += score.wrong;
+    } else this.pressed.add({ seconds, judged: score, withheld: 0 });
+  }
+
+  /** Adds other streams. */
+  merge(other) {
+    for (const key of ["wandered", "seconds", "wrong", "false"]) this[key] += other[key];
+    this.pressed.merge(other.pressed);
+  }
+
+  /** As those of {@link Sums}, of the movements that end in a press; wrong intents a minute of everything, and the share of right ones. */
+  figures() {
+    const { pressed, wandered, wrong } = this;
+    const { movements, early, first, before, leadToPress, leadToEntry } = pressed.figures();
+    return {
+      movements,
+      wandered,
+      wrongPerMinute: (60 * wrong) / this.seconds,
+      wrong: pressed.wrong / movements,
+      false: wandered > 0 ? this.false / wandered : null,
+      early,
+      first,
+      before,
+      right: pressed.before + wrong > 0 ? pressed.before / (pressed.before + wrong) : null,
+      leadToPress,
+      leadToEntry,
+    };
+  }
+}
+
+/** From the 2.5th to the 97.5th percentile of what is computed of users drawn with replacement, always the same ones; null for fewer than two. */
+export function intervalOf(users, figureOf) {
+  if (users.length < 2) return null;
+  const random = randomOf("users");
+  const drawn = Array.from({ length: DRAWS }, () => figureOf(users.map(() => users[Math.floor(users.length * random())])));
+  drawn.sort((a, b) => a - b);
+  return [0.025, 0.975].map((share) => drawn[Math.round(share * (DRAWS - 1))]);
 }
 
 function median(values) {

@@ -1,16 +1,19 @@
-// `npm run evaluate -- --intents FILE...`: what whither/dom's intents are worth on recorded movements, by its options.
+// `npm run evaluate -- --intents FILE...`: what whither/dom's intents are worth on recorded movements, by its options; with `--wandering` in
+// place of `--intents`: in streams of them, of which some lead to nothing.
 import { existsSync } from "node:fs";
 import { readFile, rm } from "node:fs/promises";
-import { availableParallelism } from "node:os";
 import { basename, join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
-import { Worker } from "node:worker_threads";
 import { bundle } from "../../../scripts/bundle.mjs";
 import { Failure, main, root } from "../../../scripts/run.mjs";
-import { Sums } from "./figures.mjs";
+import { StreamSums, Sums } from "./figures.mjs";
+import { Pool } from "./pool.mjs";
 import { LEGEND, print, write } from "./report.mjs";
-import { optionsOf, REASONS, rowsOf } from "./rows.mjs";
+import { optionsOf, REASONS, rowsOf, rowsOfStreams } from "./rows.mjs";
+import { printStreams, STREAM_LEGEND, writeStreams } from "./stream-report.mjs";
+import { readTrack } from "./tracks.mjs";
+import { SHARES } from "./wandering.mjs";
 
 /** Lines that are scored at once. */
 const BATCH = 32;
@@ -18,82 +21,120 @@ const BATCH = 32;
 await main(import.meta.url, async () => {
   const { values, positionals } = parseArgs({
     allowPositionals: true,
-    options: { users: { type: "boolean" }, grid: { type: "boolean" }, json: { type: "string" } },
+    options: {
+      users: { type: "boolean" },
+      grid: { type: "boolean" },
+      wandering: { type: "boolean" },
+      json: { type: "string" },
+    },
   });
   if (!existsSync(join(root, "dist/pointing.js"))) throw new Failure("dist/ has to be there: npm run build");
   const bundled = await bundle(["testing/page.ts", "options.ts"].map((file) => join(root, "js/dom", file)));
   const urlOf = (file) => pathToFileURL(join(bundled, file)).href;
   const { readOptions } = await import(urlOf("options.mjs"));
-  const rows = rowsOf(readOptions({ root: { querySelectorAll() {} } }), values.grid);
-  const combinations = REASONS.flatMap((reasons) => rows.map((row) => ({ reasons, row })));
-  const options = combinations.map(({ row, reasons }) => optionsOf(row, reasons));
-  const workers = startWorkers(urlOf("testing/page.mjs"), options);
+  const defaults = readOptions({ root: { querySelectorAll() {} } });
+  const make = (options) => new Pool(urlOf("testing/page.mjs"), options);
   try {
-    const sets = new Map();
-    for (const file of positionals) await score(file, workers, sets, options.length);
-    if (sets.size === 0) throw new Failure("nothing to score: no track comes to its target from elsewhere");
-    console.log(LEGEND);
-    for (const [name, users] of sets) print(name, users, combinations, rows, values.users);
-    if (values.json) await write(values.json, sets, combinations);
+    await (values.wandering ? wandering : intents)(positionals, defaults, make, values);
   } finally {
-    for (const worker of workers) await worker.terminate();
     await rm(bundled, { recursive: true });
   }
 });
 
-function startWorkers(page, options) {
-  const workerData = { page, options };
-  const file = new URL("worker.mjs", import.meta.url);
-  return Array.from({ length: availableParallelism() }, () => new Worker(file, { workerData }));
+/** The movements one by one. */
+async function intents(files, defaults, make, { users, grid, json }) {
+  const rows = rowsOf(defaults, grid);
+  const combinations = REASONS.flatMap((reasons) => rows.map((row) => ({ reasons, row })));
+  const pool = make(combinations.map(({ row, reasons }) => optionsOf(row, reasons)));
+  const sets = new Map();
+  try {
+    for (const file of files) await score(file, pool, sets, combinations.length);
+  } finally {
+    await pool.stop();
+  }
+  refuseNothing(sets);
+  console.log(LEGEND);
+  for (const [name, sums] of sets) print(name, sums, combinations, rows, users);
+  if (json) await write(json, sets, combinations);
+}
+
+/** Each user's movements in a stream, one for each share of those that wander. */
+async function wandering(files, defaults, make, { users, json }) {
+  const rows = rowsOfStreams(defaults);
+  const pool = make(rows.map((row) => optionsOf(row, {})));
+  const sets = new Map();
+  try {
+    for (const file of files) await scoreStreams(file, pool, sets, rows.length);
+  } finally {
+    await pool.stop();
+  }
+  refuseNothing(sets);
+  console.log(STREAM_LEGEND);
+  for (const [name, sums] of sets) printStreams(name, sums, rows, users);
+  if (json) await writeStreams(json, sets, rows);
+}
+
+function refuseNothing(sets) {
+  if (sets.size === 0) throw new Failure("nothing to score: no track comes to its target from elsewhere");
 }
 
 /** Adds a file's tracks to the sets: by set and user the sums for each of so many options. */
-async function score(file, workers, sets, count) {
-  const name = basename(file).replace(/\.[^.]*$/, "");
-  const lines = (await readLines(file)).map((text, i) => ({ text, number: i + 1 })).filter(({ text }) => text.trim() !== "");
+async function score(file, pool, sets, count) {
+  const lines = await readLines(file);
   const batches = Array.from({ length: Math.ceil(lines.length / BATCH) }, (_, i) => lines.slice(BATCH * i, BATCH * (i + 1)));
-  const scored = new Array(batches.length);
-  let next = 0;
-  let done = 0;
-  const work = async (worker) => {
-    while (next < batches.length) {
-      const mine = next++;
-      scored[mine] = await ask(worker, batches[mine]);
-      done++;
-      const tenth = Math.floor((10 * done) / batches.length);
-      if (tenth > Math.floor((10 * (done - 1)) / batches.length))
-        console.error(`${name}: ${10 * tenth}% of ${lines.length} tracks`);
-    }
-  };
-  await Promise.all(workers.map(work));
-  // in the order of the file, however many worked on it
-  for (const track of scored.flat()) {
+  const scored = (await pool.run(batches, `${lines.length} tracks of ${nameOf(file)}`)).flat();
+  for (const track of scored) {
     if (track?.broken) console.error(`${file}:${track.broken}; skipped`);
-    else if (track) add(sets, `${name}${track.part}`, track, count);
+    else if (track) {
+      const { user, part, scores } = track;
+      const sums = sumsOf(sets, nameOf(file) + part, user, () => scores.map(() => new Sums()));
+      for (let i = 0; i < count; i++) sums[i].add(scores[i]);
+    }
   }
 }
 
-function add(sets, set, { user, scores }, count) {
-  const users = sets.get(set) ?? new Map();
-  const sums = users.get(user) ?? Array.from({ length: count }, () => new Sums());
-  sets.set(set, users.set(user, sums));
-  for (let i = 0; i < count; i++) sums[i].add(scores[i]);
-}
-
-function ask(worker, lines) {
-  return new Promise((resolve, reject) => {
-    worker.once("error", reject);
-    worker.once("message", (answer) => {
-      worker.off("error", reject);
-      resolve(answer);
+/** Adds a file's users to the sets: by set and user, for each share that wanders the sums for each of so many options. */
+async function scoreStreams(file, pool, sets, count) {
+  const users = new Map();
+  for (const { number, text } of await readLines(file)) {
+    try {
+      const track = readTrack(text);
+      const user = track.user ?? "";
+      users.set(user, [...(users.get(user) ?? []), track]);
+    } catch (error) {
+      console.error(`${file}:${number}: ${error.message}; skipped`);
+    }
+  }
+  const jobs = Array.from(users, ([user, tracks]) => ({ user, tracks }));
+  const streams = await pool.run(jobs, `${jobs.length} users of ${nameOf(file)}`);
+  streams.forEach((byShare, i) => {
+    if (byShare[0].length === 0) return;
+    const sums = sumsOf(sets, nameOf(file), jobs[i].user, () =>
+      SHARES.map(() => Array.from({ length: count }, () => new StreamSums())),
+    );
+    byShare.forEach((movements, share) => {
+      for (const movement of movements) movement.scores.forEach((each, k) => sums[share][k].add(movement, each));
     });
-    worker.postMessage(lines);
   });
 }
 
+/** A user's sums in a set, made where there are none. */
+function sumsOf(sets, set, user, make) {
+  const users = sets.get(set) ?? new Map();
+  const sums = users.get(user) ?? make();
+  sets.set(set, users.set(user, sums));
+  return sums;
+}
+
+function nameOf(file) {
+  return basename(file).replace(/\.[^.]*$/, "");
+}
+
+/** The lines of a file that are not empty, `{ number, text }`. */
 async function readLines(file) {
   try {
-    return (await readFile(file, "utf8")).split("\n");
+    const lines = (await readFile(file, "utf8")).split("\n");
+    return lines.map((text, i) => ({ text, number: i + 1 })).filter(({ text }) => text.trim() !== "");
   } catch (error) {
     throw new Failure(`${file} cannot be read: ${error.message}`);
   }

@@ -15,31 +15,54 @@ export function approachOf({ targets, target, samples }) {
 }
 
 /**
- * Replays one movement with each of the options at a time, on the same page: the watchers know nothing of one another.
+ * Replays one movement with each of the options at a time, on the same page.
  *
  * @param Page - `TestPage` of js/dom/testing.
  * @param core - Makes predictors.
  * @param withheld - Leaves the target that is pressed out of the page: whatever is intended then is false.
- * @returns the movement's `{ seconds, entry, press }` from its first sample on, and for each of the options what was intended,
+ * @returns the movement's `{ entry, press }` from its first sample on, and for each of the options what was intended,
  *   `[{ right, reason, begin, end }]`: seconds from the first sample, `end` null where the press ended it; null for no approach.
  */
 export async function replay(track, options, { Page, core, withheld }) {
   const approach = approachOf(track);
   if (!approach) return null;
   const page = new Page({ core });
-  const elements = track.targets.map((box, i) => (withheld && i === track.target ? null : page.append("a", boundsOf(box))));
+  const elements = track.targets.map((box, i) => (withheld && i === track.target ? null : append(page, box)));
   const origin = track.samples[0][0];
-  const onPage = (time) => BEFORE + 1000 * (time - origin);
+  const watching = await watchEach(page, options);
+  const samples = track.samples.slice(0, approach.press + 1).map(([time, ...place]) => [time - origin, ...place]);
+  move(page, samples);
+  press(page, samples.at(-1));
+  watching.stop();
+  return {
+    entry: samples[approach.entry][0],
+    press: samples[approach.press][0],
+    intents: watching.intents.map((each) => each.map((intent) => withRight(intent, elements[track.target]))),
+  };
+}
+
+/** An intent, and whether it was of that element. */
+export function withRight({ target, ...intent }, element) {
+  return { right: target === element, ...intent };
+}
+
+/**
+ * Watches the links of a page with each of the options; the watchers know nothing of one another.
+ *
+ * @returns for each of the options its `intents`, `[{ target, reason, begin, end }]` in seconds since everything was ready, to which those to
+ *   come are appended, and what ends it.
+ */
+export async function watchEach(page, options) {
+  const now = () => (page.now() - BEFORE) / 1000;
   const watchers = options.map((own) => {
     const intents = [];
     const open = new Map();
-    const now = () => (page.now() - BEFORE) / 1000;
     const watcher = page.watch("a", {
       ...own,
       load: "eager",
       decorate: false,
       onIntent({ target, reason }) {
-        const intent = { right: target === elements[track.target], reason, begin: now(), end: null };
+        const intent = { target, reason, begin: now(), end: null };
         intents.push(intent);
         open.set(target, intent);
       },
@@ -53,22 +76,43 @@ export async function replay(track, options, { Page, core, withheld }) {
     return { watcher, intents };
   });
   await Promise.all(watchers.map(({ watcher }) => watcher.ready));
-  for (const [time, x, y] of track.samples.slice(0, approach.press + 1)) {
-    page.clock.advanceTo(onPage(time));
+  return {
+    intents: watchers.map(({ intents }) => intents),
+    stop() {
+      for (const { watcher } of watchers) watcher.stop();
+      if (page.errors.length > 0) throw page.errors[0];
+    },
+  };
+}
+
+/** Lets time pass until so many seconds after everything was ready. */
+export function waitUntil(page, time) {
+  page.clock.advanceTo(BEFORE + 1000 * time);
+}
+
+/** Moves the pointer through samples, whose times are seconds since everything was ready. */
+export function move(page, samples) {
+  for (const [time, x, y] of samples) {
+    waitUntil(page, time);
     page.point("pointermove", x, y);
   }
-  const [, x, y] = track.samples[approach.press];
+}
+
+/** Presses where a sample is, now. */
+export function press(page, [, x, y]) {
   page.point("pointerdown", x, y);
-  for (const { watcher } of watchers) watcher.stop();
-  if (page.errors.length > 0) throw page.errors[0];
-  const since = (place) => track.samples[place][0] - origin;
-  return { entry: since(approach.entry), press: since(approach.press), intents: watchers.map(({ intents }) => intents) };
 }
 
-function isInside([, x, y], [centerX, centerY, width, height]) {
-  return Math.abs(x - centerX) <= width / 2 && Math.abs(y - centerY) <= height / 2;
+/** Appends a link with a box of a recording. */
+export function append(page, box) {
+  return page.append("a", boundsOf(box));
 }
 
-function boundsOf([x, y, width, height]) {
+/** A box of a recording, `[x, y, width, height]` about its centre, as a page has it. */
+export function boundsOf([x, y, width, height]) {
   return { x: x - width / 2, y: y - height / 2, width, height };
+}
+
+export function isInside([, x, y], [centerX, centerY, width, height]) {
+  return Math.abs(x - centerX) <= width / 2 && Math.abs(y - centerY) <= height / 2;
 }

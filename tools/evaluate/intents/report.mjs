@@ -46,8 +46,6 @@ export function print(name, users, combinations, rows, byUser) {
 
 /** Rows of a table: shares in percent, leads in milliseconds. */
 function cells(rows) {
-  const percent = (share) => (share === null ? "-" : (100 * share).toFixed(1));
-  const milliseconds = (seconds) => (seconds === null ? "-" : (1000 * seconds).toFixed(0));
   return rows.map(([name, f]) => [
     name,
     f.wrong.toFixed(3),
@@ -60,6 +58,15 @@ function cells(rows) {
   ]);
 }
 
+/** A share in percent. */
+export function percent(share) {
+  return share === null ? "-" : (100 * share).toFixed(1);
+}
+
+export function milliseconds(seconds) {
+  return seconds === null ? "-" : (1000 * seconds).toFixed(0);
+}
+
 /** All figures, those of the combinations too, by set and by user: shares, and seconds. */
 export async function write(file, sets, combinations) {
   const list = (figures) => combinations.map(({ row, reasons }, i) => ({ reasons: reasons.name, ...row, ...figures(i) }));
@@ -68,7 +75,12 @@ export async function write(file, sets, combinations) {
     rows: list((i) => total(users, i).figures()),
     users: Object.fromEntries(Array.from(users, ([user, sums]) => [user, list((i) => sums[i].figures())])),
   }));
+  await writeJson(file, { intents });
+}
+
+/** Writes the report. */
+export async function writeJson(file, report) {
   await mkdir(dirname(file), { recursive: true });
-  await writeFile(file, `${JSON.stringify({ intents })}\n`);
+  await writeFile(file, `${JSON.stringify(report)}\n`);
   console.log(`report: ${file}`);
 }

@@ -2,6 +2,8 @@
 
 const THRESHOLDS = [0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95];
 const NONES = [0, 0.05, 0.1, 0.2, 0.3, 0.5];
+const STREAM_THRESHOLDS = [0.8, 0.85, 0.9];
+const STREAM_NONES = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5];
 const AFTERS = [0, 25, 50, 100];
 const RELEASES = [0.1, 0.2, 0.3];
 
@@ -33,8 +35,15 @@ export function rowsOf({ threshold, none, reasons: { pointer } }, grid) {
   return [...rows.values()];
 }
 
+/** The rows of streams, the defaults first: each prior of "none" with each threshold. */
+export function rowsOfStreams({ threshold, none }) {
+  const all = STREAM_THRESHOLDS.flatMap((each) => STREAM_NONES.map((n) => ({ threshold: each, none: n })));
+  const isDefault = (row) => row.threshold === threshold && row.none === none;
+  return [{ threshold, none }, ...all.filter((row) => !isDefault(row))];
+}
+
 /** What `watch` is given for a row. */
-export function optionsOf({ threshold, none, after, release }, { reasons }) {
+export function optionsOf({ threshold, none, after = 0, release }, { reasons }) {
   return { threshold, release, none, reasons: { ...reasons, pointer: { after } } };
 }
 

@@ -1,9 +1,11 @@
-// Replays tracks beside others: is given lines, `{ number, text }`, answers what came of each, in their order.
+// Replays beside others: is given lines, `{ number, text }`, answers what came of each, in their order; or a user and the tracks,
+// answers what came of each movement of the streams.
 import { parentPort, workerData } from "node:worker_threads";
 import { init, PointerPredictor } from "../../../dist/pointing.js";
 import { judge } from "./figures.mjs";
 import { replay } from "./replay.mjs";
 import { partOf, readTrack } from "./tracks.mjs";
+import { chain, replayStream, SHARES } from "./wandering.mjs";
 
 const { page, options } = workerData;
 const { TestPage: Page } = await import(page);
@@ -26,7 +28,7 @@ async function score(track) {
   };
 }
 
-parentPort.on("message", async (lines) => {
+async function scoreLines(lines) {
   const scored = [];
   for (const { number, text } of lines) {
     try {
@@ -35,5 +37,16 @@ parentPort.on("message", async (lines) => {
       scored.push({ broken: `${number}: ${error.message}` });
     }
   }
-  parentPort.postMessage(scored);
+  return scored;
+}
+
+async function scoreStreams({ user, tracks }) {
+  const movements = chain(tracks, user);
+  const streams = [];
+  for (const share of SHARES) streams.push(await replayStream(movements, share, options, { Page, core }));
+  return streams;
+}
+
+parentPort.on("message", async (job) => {
+  parentPort.postMessage(await (Array.isArray(job) ? scoreLines(job) : scoreStreams(job)));
 });
