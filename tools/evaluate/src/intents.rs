@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Replays the tracks of `files`; with `users` also prints a table by user, with `grid` also reports every combination of the options.
-pub fn run(files: &[PathBuf], json: &Path, users: bool, grid: bool) -> Result<(), String> {
-    let flags = [("--users", users), ("--grid", grid)];
+/// Replays the tracks of `files`, with those of the program's flags that are given.
+pub fn run(files: &[PathBuf], json: &Path, flags: &[(&str, bool)]) -> Result<(), String> {
     let status = Command::new("node")
         .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/intents/intents.mjs"))
         .args(flags.iter().filter(|(_, given)| *given).map(|(flag, _)| flag))

@@ -6,6 +6,7 @@
 //! top, accuracy on the way, mean log loss, expected calibration error, lead time; with an interval by drawing users.
 
 mod chart;
+mod crossings;
 mod extras;
 mod foresight;
 mod habits;
@@ -19,6 +20,7 @@ mod sweep;
 mod variants;
 
 use clap::Parser;
+use crossings::Crossings;
 use extras::{Extras, Sums};
 use foresight::Foresight;
 use methods::{Method, Template};
@@ -32,10 +34,11 @@ use variants::Variant;
 use whither::study::metrics::Score;
 
 /// Options of the usual tables only.
-const OF_SCORES: [&str; 7] = ["scenario", "more", "ours", "users", "margin", "every", "charts"];
+const OF_SCORES: [&str; 8] = ["scenario", "more", "thresholds", "ours", "users", "margin", "every", "charts"];
 
 /// Options and tables that have nothing to do with intents.
-const NOT_OF_INTENTS: [&str; 9] = ["scenario", "more", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
+const NOT_OF_INTENTS: [&str; 10] =
+    ["scenario", "more", "thresholds", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
 
 /// The error where nothing was scored.
 const NOTHING: &str = "nothing to score: too few tracks enter their target";
@@ -57,6 +60,11 @@ struct Arguments {
     /// half of the tracks.
     #[arg(long)]
     more: bool,
+    /// Print when the posterior of the first of our scenarios first crosses a threshold, too: right and wrong, how early, how often, by the
+    /// threshold and the release, after a rest, and by other rules. Computed on the posteriors; what whither/dom makes of them on a page
+    /// is replayed by --intents and --wandering.
+    #[arg(long)]
+    thresholds: bool,
     /// Leave the other predictors out.
     #[arg(long)]
     ours: bool,
@@ -82,6 +90,10 @@ struct Arguments {
     /// that were wrong, early and right, their lead, and those of a page without the target.
     #[arg(long, conflicts_with_all = NOT_OF_INTENTS)]
     intents: bool,
+    /// Instead, replay each user's tracks through whither/dom as one stream, of which half and four fifths lead to nothing on the page:
+    /// wrong intents a minute, and what they are worth where there is a press, by the threshold and the prior of "none".
+    #[arg(long, conflicts_with_all = NOT_OF_INTENTS, conflicts_with = "intents")]
+    wandering: bool,
     /// With --intents, every combination of these in the report, too.
     #[arg(long, requires = "intents")]
     grid: bool,
@@ -119,22 +131,31 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return in_place_of_scores(arguments, "fit", |file, into| learning::run(&template_for(file)?, file, into));
     }
     if arguments.intents {
-        return intents::run(&arguments.files, &arguments.json, arguments.users, arguments.grid);
+        return intents::run(
+            &arguments.files,
+            &arguments.json,
+            &[("--users", arguments.users), ("--grid", arguments.grid)],
+        );
+    }
+    if arguments.wandering {
+        return intents::run(&arguments.files, &arguments.json, &[("--wandering", true), ("--users", arguments.users)]);
     }
     let mut results = Results::default();
     let mut skipped = 0;
     let mut more = arguments.more.then(BTreeMap::new);
+    let mut crossings = arguments.thresholds.then(Crossings::new);
     for file in &arguments.files {
         let methods = methods_for(arguments, file)?;
-        skipped += evaluate(arguments, file, &methods, &mut results, more.as_mut())?;
+        skipped += evaluate(arguments, file, &methods, &mut results, (more.as_mut(), crossings.as_mut()))?;
     }
     if results.sets.is_empty() {
         return Err(NOTHING.to_owned());
     }
     results.print(arguments.users);
     let extras = more.map(|sums| extras::report(&sums));
+    let crossings = crossings.map(|crossings| crossings::report(&crossings));
     print_skipped(skipped);
-    results.write(&arguments.json, extras)?;
+    results.write(&arguments.json, extras, crossings)?;
     let charts = chart::write_all(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
@@ -195,20 +216,23 @@ fn evaluate(
     file: &Path,
     methods: &[Method],
     results: &mut Results,
-    mut more: Option<&mut BTreeMap<String, Sums>>,
+    (mut more, mut crossings): (Option<&mut BTreeMap<String, Sums>>, Option<&mut Crossings>),
 ) -> Result<usize, String> {
     let name = reading::name(file);
     let mut sets: Vec<Set> = Vec::new();
     let template = template_for(file)?;
     let margin = arguments.margin.unwrap_or(template.margin);
-    let extra = more.is_some().then_some(&template);
+    let also = [more.is_some(), crossings.is_some()].map(|wanted| wanted.then_some(&template));
     let skipped = reading::each(
         file,
-        |line| score(line, (margin, arguments.every), methods, extra),
-        |(part, user, scores, extras)| {
+        |line| score(line, (margin, arguments.every), methods, also),
+        |(part, user, scores, extras, crossing)| {
             report::add(&mut sets, &name, part, methods, &user, &scores);
             if let (Some(sums), Some(extras)) = (more.as_deref_mut(), extras) {
                 sums.entry(format!("{name}{part}")).or_default().add(&extras);
+            }
+            if let (Some(crossings), Some(crossing)) = (crossings.as_deref_mut(), crossing) {
+                crossings.entry(format!("{name}{part}")).or_default().entry(user).or_default().add(&crossing);
             }
         },
     )?;
@@ -216,19 +240,20 @@ fn evaluate(
     Ok(skipped)
 }
 
-type Scored = (&'static str, String, Vec<Option<Score>>, Option<Extras>);
+type Scored = (&'static str, String, Vec<Option<Score>>, Option<Extras>, Option<crossings::Sums>);
 
 fn score(
     line: &reading::Line,
     (margin, every): (f64, usize),
     methods: &[Method],
-    extra: Option<&Template>,
+    [more, thresholds]: [Option<&Template>; 2],
 ) -> Result<Option<Scored>, String> {
-    let track = line.track(margin)?;
-    let Some((track, approach)) = Variant::Every(every).of(&track, 0) else { return Ok(None) };
+    let recorded = line.track(margin)?;
+    let Some((track, approach)) = Variant::Every(every).of(&recorded, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    let extras = extra.map(|template| extras::run(template, &track, approach, line.number)).transpose()?;
-    Ok(Some((reading::part(&track), track.user, scores, extras)))
+    let extras = more.map(|template| extras::run(template, &track, approach, line.number)).transpose()?;
+    let crossing = thresholds.map(|template| crossings::run(template, &recorded, every)).transpose()?.flatten();
+    Ok(Some((reading::part(&track), track.user, scores, extras, crossing)))
 }
 
 #[cfg(test)]
@@ -251,6 +276,8 @@ mod tests {
                 && !refused("evaluate a.jsonl --sweep")
                 && !refused("evaluate --habits")
                 && !refused("evaluate a.jsonl --intents --users --grid")
+                && !refused("evaluate a.jsonl --wandering --users")
+                && !refused("evaluate a.jsonl --more --thresholds")
         );
         for line in [
             "evaluate",
@@ -262,6 +289,9 @@ mod tests {
             "evaluate a --intents --sweep",
             "evaluate a --intents --every 2",
             "evaluate a --grid",
+            "evaluate a --wandering --intents",
+            "evaluate a --wandering --more",
+            "evaluate a --thresholds --sweep",
         ] {
             assert!(refused(line), "{line}");
         }
