@@ -9,14 +9,8 @@ const TOGETHER: usize = 4;
 ///
 /// The exponents and polynomials of all terms come first, then what makes powers of them and adds them up. In one loop a processor
 /// would wait for each term's chain of operations: those that do not depend on it lie too far ahead.
-#[derive(Clone, Debug)]
-pub struct Powers(pub(super) Vec<[Power; 2]>);
-
-impl Default for Powers {
-    fn default() -> Self {
-        Self(vec![Default::default(); TOGETHER])
-    }
-}
+#[derive(Clone, Debug, Default)]
+pub struct Powers(pub(super) [[Power; 2]; TOGETHER]);
 
 /// One term at one block of places.
 #[derive(Clone, Copy, Debug, Default)]
