@@ -9,6 +9,7 @@ import { incremental } from "./incremental.mjs";
 import { answer, main, root, run } from "./run.mjs";
 import { setUp } from "./setup.mjs";
 import { during } from "./stage.mjs";
+import { trapPanics } from "./traps.mjs";
 
 const target = "wasm32-unknown-unknown";
 const generated = "js/generated";
@@ -42,7 +43,7 @@ export async function buildWasm({ dev = false } = {}) {
   await incremental("wasm-modules", { inputs: sources, outputs: compiled, variant, doing: null }, async () => {
     for (const [i, module] of modules.entries()) await toWasm(module, compiled[i], dev ? "wasm-dev" : module.profile);
   });
-  const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs"];
+  const inputs = [...compiled, "Cargo.lock", "tools/xtask", "package-lock.json", "scripts/build-wasm.mjs", "scripts/traps.mjs"];
   const outputs = modules.flatMap(({ name, bytes }) => [
     `${name}.js`,
     `${name}.d.ts`,
@@ -118,6 +119,7 @@ async function bindgen(compiled, name) {
 /** Makes the file small, and gives what it is under gzip. */
 async function small(name) {
   const file = `${generated}/${name}_bg.wasm`;
+  trapPanics(join(root, file));
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = instructions.map((set) => `--enable-${set}`);
   // Large functions with a single caller stay functions: inlined they compress worse, by 6%.
