@@ -13,6 +13,7 @@ use crate::error::Result;
 use crate::math::gaussian::Gaussian;
 use crate::math::kalman::Measurement;
 use crate::model::destination::Destinations;
+use crate::model::learnt::Learnt;
 use crate::model::observation::ObservationModel;
 use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::remaining::Remaining;
@@ -83,6 +84,13 @@ pub(crate) trait Engine: Send + Sync {
 
     /// Other destinations in mid-movement; `origin` holds which old one each was, where the motion model depends on them.
     fn replan(&mut self, destinations: &Arc<Destinations>, origin: Option<&[usize]>);
+
+    /// From now on this holds of the user, and with `keeps` a movement that begins keeps what [`Engine::learn`] needs. Only the pointing
+    /// model knows users.
+    fn apply(&mut self, _learnt: &Learnt, _keeps: bool) {}
+
+    /// Learns, once a movement, that it goes to the destination at this place.
+    fn learn(&mut self, _chosen: usize, _learnt: &mut Learnt) {}
 
     /// What a snapshot keeps.
     fn save(&self) -> Value;

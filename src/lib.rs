@@ -158,6 +158,7 @@ pub use model::arrival::Arrival;
 pub use model::destination::Destination;
 pub use model::habits::Learning;
 pub use model::initial::Initial;
+pub use model::learnt::Learnt;
 pub use model::matrix::Matrix;
 pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};

@@ -10,6 +10,7 @@ use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
 use crate::model::habits::Habits;
+use crate::model::learnt::Learnt;
 use crate::model::observation::ObservationNoise;
 use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::remaining::Remaining;
@@ -47,6 +48,7 @@ pub struct Predictor {
     pub(crate) destinations: Arc<Destinations>,
     pub(crate) movement: Option<Movement>,
     pub(crate) habits: Habits,
+    pub(crate) learnt: Learnt,
     posterior: Posterior,
     log_likelihoods: Vec<f64>,
     /// Whether the posterior is that of an earlier state.
@@ -70,6 +72,7 @@ impl Predictor {
             destinations,
             movement,
             habits: Habits::default(),
+            learnt: Learnt::default(),
             posterior: Posterior::default(),
             log_likelihoods: Vec::new(),
             stale: true,
@@ -109,7 +112,9 @@ impl Predictor {
         model.check(position)?;
         let noise = noise.as_ref().unwrap_or_else(|| model.noise());
         let Some(movement) = &mut self.movement else {
-            self.movement = Some(Movement::begin(&self.scenario, &self.destinations, time, position, noise)?);
+            let mut movement = Movement::begin(&self.scenario, &self.destinations, time, position, noise)?;
+            movement.engine.apply(&self.learnt, self.scenario.learning.is_some());
+            self.movement = Some(movement);
             self.stale = true;
             return Ok(());
         };
@@ -297,18 +302,49 @@ impl Predictor {
         self.stale = true;
     }
 
-    /// Records what was selected in the end: counted where the scenario asks for `learning`, without effect where it does not.
-    /// The priors that are learnt hold from now on, for this movement and the ones after it.
+    /// Records what was selected in the end: learnt from where the scenario asks for `learning`, without effect where it does not.
+    /// What is learnt holds from now on, for this movement and the ones after it: priors ([`Learning`](crate::Learning)), and with the
+    /// method `pointing` how far the model holds for the user ([`Predictor::learnt`]). For the latter the movement up to the last entry
+    /// into the destination counts, once: a second choice before [`Predictor::reset`] teaches priors alone. Where something was chosen
+    /// by other means than this movement, reset before.
     ///
     /// # Errors
     /// `unknown-id`.
     pub fn chosen(&mut self, id: &str) -> Result<()> {
-        self.destinations.index_of(id)?;
+        let place = self.destinations.index_of(id)?;
         if let Some(learning) = &self.scenario.learning {
+            if let Some(movement) = &mut self.movement {
+                movement.engine.learn(place, &mut self.learnt);
+            }
             self.habits.chosen(learning, id);
             self.apply_habits();
         }
         Ok(())
+    }
+
+    /// What the outcomes of movements have taught about the user, by [`Predictor::chosen`] or set by [`Predictor::set_learnt`].
+    #[must_use]
+    pub const fn learnt(&self) -> Learnt {
+        self.learnt
+    }
+
+    /// Goes on with what was learnt before, or by another predictor; with [`Learnt::default`] it is forgotten. The counts of choices
+    /// stay. It holds at once, in mid-movement too, with the method `pointing`; others have no use for it.
+    ///
+    /// # Errors
+    /// `not-finite`, `out-of-range`; nothing has changed then.
+    pub fn set_learnt(&mut self, learnt: Learnt) -> Result<()> {
+        self.apply_learnt(learnt.check(&Path::root("learnt"))?);
+        Ok(())
+    }
+
+    /// The same for numbers that were checked before.
+    pub(crate) fn apply_learnt(&mut self, learnt: Learnt) {
+        self.learnt = learnt;
+        if let Some(movement) = &mut self.movement {
+            movement.engine.apply(&learnt, false);
+        }
+        self.stale = true;
     }
 
     /// Puts the priors that were learnt in force, in mid-movement too.

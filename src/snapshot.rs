@@ -2,6 +2,7 @@
 
 use crate::error::{Code, Error, Result};
 use crate::model::habits::Habits;
+use crate::model::learnt::Learnt;
 use crate::predictor::{Movement, Predictor};
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
@@ -66,7 +67,12 @@ impl Predictor {
         let movement = self.movement.as_ref().map_or(Value::Null, Movement::save);
         let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
         let scenario = self.scenario.to_value_with(&self.destinations);
-        let body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);
+        let mut body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);
+        if let Value::Map(entries) = &mut body
+            && self.learnt() != Learnt::default()
+        {
+            entries.push(("learnt".into(), Value::exact_numbers(&self.learnt().numbers())));
+        }
         let seal = seal(&body);
         Snapshot(Value::map([
             ("whither", Value::text("snapshot")),
@@ -108,7 +114,7 @@ impl Predictor {
     }
 
     fn read_body(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["scenario", "habits", "movement"])?;
+        let fields = node.fields(&["scenario", "habits", "movement", "learnt"])?;
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
         let destinations = Arc::clone(&scenario.destinations);
         let load = |movement: Node<'_>| Movement::load(&movement, &scenario, &destinations);
@@ -117,6 +123,12 @@ impl Predictor {
         if let Some(habits) = fields.optional("habits") {
             predictor.habits = Habits::load(&habits)?;
             predictor.apply_habits();
+        }
+        if let Some(learnt) = fields.optional("learnt") {
+            let mut numbers = Learnt::default().numbers();
+            let saved = learnt.exact_numbers(numbers.len())?;
+            numbers.copy_from_slice(&saved);
+            predictor.apply_learnt(Learnt::of(numbers));
         }
         Ok(predictor)
     }

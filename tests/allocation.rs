@@ -58,6 +58,13 @@ fn pointing(count: u32, sizes: Sizes) -> Predictor {
     Predictor::new(&pointer_scenario(&targets.collect::<Vec<_>>(), options).unwrap())
 }
 
+/// The same, which keeps what it may learn from.
+fn learning(count: u32, sizes: Sizes) -> Predictor {
+    let mut scenario = serde_json::to_value(pointing(count, sizes).scenario()).unwrap();
+    scenario["learning"] = json!({ "strength": 5 });
+    read(&scenario)
+}
+
 fn read(scenario: &Json) -> Predictor {
     let scenario: Scenario = serde_json::from_value(scenario.clone()).unwrap();
     Predictor::new(&scenario)
@@ -90,6 +97,20 @@ fn pointing_allocates_nothing_after_the_first_observations() {
     for (count, sizes) in [(21, Sizes::One), (200, Sizes::Own), (200, Sizes::Two)] {
         assert_eq!(after_a_first_movement(pointing(count, sizes)).count_total, 0);
     }
+}
+
+#[test]
+fn what_a_movement_keeps_to_learn_from_is_allocated_when_it_begins_and_small() {
+    for (count, sizes) in [(21, Sizes::One), (200, Sizes::Two)] {
+        assert_eq!(after_a_first_movement(learning(count, sizes)).count_total, 0);
+    }
+    let begin = |make: fn(u32, Sizes) -> Predictor| {
+        let mut predictor = make(21, Sizes::One);
+        movement(&mut predictor, 0, 5);
+        predictor.reset();
+        measure(|| movement(&mut predictor, 0, 1)).bytes_total
+    };
+    assert!(begin(learning) - begin(pointing) < 5000);
 }
 
 /// Bytes that the beginning of a movement allocates for each target, after one before it.

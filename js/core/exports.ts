@@ -6,6 +6,7 @@
 export { WhitherError, type ErrorCode } from "#error";
 export type { Best } from "./best.js";
 export type { Gaussian } from "./gaussian.js";
+export type { Learnt } from "./learnt.js";
 export { initSync } from "./loading/instance.js";
 export {
   Predictor,

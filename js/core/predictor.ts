@@ -5,6 +5,7 @@ import { fromBytes } from "./bytes.js";
 import { copyInto } from "./copy.js";
 import { gaussian, type Gaussian } from "./gaussian.js";
 import { Engine, loaded, memory } from "./loading/instance.js";
+import { type Learnt, learntNumbers, learntOf, readLearnt } from "./learnt.js";
 import { dispose, freed } from "./lifetime.js";
 import { checkOptions } from "./options.js";
 import { bounds, copyIn, isScarce, reserve, type Bounds } from "./memory.js";
@@ -47,7 +48,7 @@ export interface ArrivalTime {
  * With the papers' methods the interval lies between the tenth and the ninetieth percentile of the posterior of the arrival time.
  * With `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three
  * sets, but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices it
- * holds less.
+ * holds less, until it is learnt ({@link Predictor.learnt}).
  */
 export interface Remaining {
   /** The expectation; with `pointing` the median. */
@@ -314,14 +315,45 @@ export class Predictor {
   }
 
   /**
-   * Records the selection: counted where the scenario has `learning`, without effect where it does not. The
-   * priors that are learnt hold from now on; {@link snapshot} keeps them.
+   * Records the selection: learnt from where the scenario has `learning`, without effect where it does not. What is learnt holds from
+   * now on, and {@link snapshot} keeps it: priors, and with the method `pointing` how far the model holds for the user ({@link learnt}).
+   * For that the movement up to the last entry into the destination counts, once: a second choice before {@link reset} teaches priors
+   * alone. Where something was chosen by other means than this movement, such as a key, reset before.
    *
    * @throws {@link WhitherError} `unknown-id`.
    */
   chosen(id: string): void {
     const given = copyIn({ id });
     this.#withMemory("change").chosen(given);
+  }
+
+  /**
+   * What the outcomes of movements have taught about the user, by {@link chosen} or set by {@link setLearnt}: plain numbers, for an
+   * application to keep.
+   *
+   * @example
+   * ```ts
+   * predictor.setLearnt(JSON.parse(localStorage.getItem("hand") ?? "null"));
+   * predictor.chosen("map");
+   * localStorage.setItem("hand", JSON.stringify(predictor.learnt()));
+   * ```
+   */
+  learnt(): Learnt {
+    return learntOf(learntNumbers(this.#live().learnt()));
+  }
+
+  /**
+   * Goes on with what was learnt before, or by another predictor; `{ confidence: 0.8 }` alone is enough. It holds at once, in
+   * mid-movement too, with the method `pointing`; others have no use for it.
+   *
+   * @param learnt - What {@link learnt} returned; null: a new user, what was learnt is forgotten. The counts of choices stay.
+   * @throws {@link WhitherError} `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `unknown-key`.
+   */
+  setLearnt(learnt: Learnt | null): void {
+    const numbers = readLearnt(learnt);
+    const engine = this.#live();
+    learntNumbers(engine.learnt()).set(numbers);
+    engine.apply_learnt();
   }
 
   /** A second predictor in the same state, which goes its own way from here: one for each vessel, or each pointer. */

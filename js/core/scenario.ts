@@ -41,13 +41,16 @@ export interface Scenario {
   readonly none?: number | undefined;
   /** The constants of the method `pointing`, and only for it. {@link pointerScenario} fills them in. */
   readonly pointing?: Pointing | undefined;
-  /** How the priors of the destinations are learnt from `predictor.chosen(id)`. @defaultValue they are not */
+  /** How is learnt from `predictor.chosen(id)`. @defaultValue nothing is learnt */
   readonly learning?: Learning | undefined;
   /** Where it may be going: 1 to 1 000 000 of them. */
   readonly destinations: readonly Destination[];
 }
 
-/** Priors that are learnt from what is chosen: counts with a Dirichlet prior. */
+/**
+ * What is learnt from what is chosen: priors, by counts with a Dirichlet prior; and with the method `pointing` how far the model holds
+ * for the user ({@link Learnt}), which alone remains where `strength` is as large as 1e50.
+ */
 export interface Learning {
   /** How many choices the scenario's own priors are worth. */
   readonly strength: number;

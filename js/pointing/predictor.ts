@@ -3,6 +3,7 @@ import { WhitherError } from "#error";
 import type { Best } from "../core/best.js";
 import { copyInto } from "../core/copy.js";
 import { gaussian, type Gaussian } from "../core/gaussian.js";
+import { type Learnt, learntNumbers, learntOf, readLearnt } from "../core/learnt.js";
 import { dispose as disposeName, freed } from "../core/lifetime.js";
 import { loaded, memory } from "../core/loading/instance.js";
 import { reserve } from "../core/memory.js";
@@ -29,6 +30,8 @@ export interface PointerOptions {
   readonly none?: number | undefined;
   /** Constants for another device or task, as `fit` of `whither/study` learns them. @defaultValue those for a mouse */
   readonly constants?: PointerConstants | Omit<Scenario, "destinations"> | undefined;
+  /** Whether {@link PointerPredictor.chosen} learns how far the model holds for the user. @defaultValue false */
+  readonly learning?: boolean | undefined;
 }
 
 /**
@@ -76,11 +79,14 @@ export class PointerPredictor {
       return;
     }
     const read = readTargets(targets);
-    const given = isAbsent(options) ? {} : fields(options, "options", ["none", "constants"]);
+    const given = isAbsent(options) ? {} : fields(options, "options", ["none", "constants", "learning"]);
     const values = readConstants(given.constants, constants());
     values[0] = readNone(given);
+    const learning = given.learning ?? false;
+    if (typeof learning !== "boolean") refuse("wrong-type", "learning", "must be true or false", learning);
     reserve(1024 * read.ids.length);
     this.#engine = new PointerEngine(values, read.numbers);
+    if (learning) this.#engine.keep_trails();
     this.#targets = read;
   }
 
@@ -179,13 +185,8 @@ export class PointerPredictor {
    * @throws {@link WhitherError} `unknown-id`, `out-of-range`, `not-finite`.
    */
   path(id: string, times: Vector): Float64Array {
-    const name = text(id, "id");
+    const place = this.#place(id);
     const numbers = Array.from(list(times, "times"), (time, i) => number(time, `times[${i}]`));
-    const place = this.#targets.places.get(name);
-    if (place === undefined) {
-      const message = `no target ${quotedSome([name])}, there are ${quotedSome(this.#targets.ids) || "none"}`;
-      throw new WhitherError("unknown-id", "id", message);
-    }
     const later = Float64Array.from(numbers, (time, i) => this.#later(time, `times[${i}]`));
     return this.#ready(64, 64 * later.length).path(place, later);
   }
@@ -204,6 +205,37 @@ export class PointerPredictor {
     engine.set_targets(read.numbers);
     this.#targets = read;
     this.#view = null;
+  }
+
+  /**
+   * Records what was selected: with the option `learning` it teaches how far the model holds for the user ({@link learnt}), which holds
+   * from now on; without it has no effect. The movement up to the last entry into the target counts, once: a second choice before
+   * {@link reset} teaches nothing. Where something was chosen by other means than this movement, such as a key, reset before.
+   *
+   * @throws {@link WhitherError} `unknown-id`.
+   */
+  chosen(id: string): void {
+    const place = this.#place(id);
+    this.#ready(64).chosen(place);
+  }
+
+  /** What the outcomes of movements have taught about the user, by {@link chosen} or set by {@link setLearnt}: plain numbers, for an application to keep. */
+  learnt(): Learnt {
+    return learntOf(learntNumbers(this.#live().learnt()));
+  }
+
+  /**
+   * Goes on with what was learnt before, or by another predictor; `{ confidence: 0.8 }` alone is enough. It holds at once, in
+   * mid-movement too.
+   *
+   * @param learnt - What {@link learnt} returned; null: a new user, what was learnt is forgotten.
+   * @throws {@link WhitherError} `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `unknown-key`.
+   */
+  setLearnt(learnt: Learnt | null): void {
+    const numbers = readLearnt(learnt);
+    const engine = this.#live();
+    learntNumbers(engine.learnt()).set(numbers);
+    engine.apply_learnt();
   }
 
   /** Begins a new movement with the same targets. */
@@ -234,6 +266,14 @@ export class PointerPredictor {
 
   #live(): PointerEngine {
     return this.#engine ?? freed("predictor");
+  }
+
+  #place(id: string): number {
+    const name = text(id, "id");
+    const place = this.#targets.places.get(name);
+    if (place !== undefined) return place;
+    const message = `no target ${quotedSome([name])}, there are ${quotedSome(this.#targets.ids) || "none"}`;
+    throw new WhitherError("unknown-id", "id", message);
   }
 
   /** The engine, with memory for a call that takes so many bytes for each target, and some more. */

@@ -39,6 +39,14 @@ pub struct Way {
     pub power: f64,
 }
 
+impl Way {
+    /// All exponents times `factor`.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { weight: factor * self.weight, power: factor * self.power, ..self }
+    }
+}
+
 /// Turns the sums `N_i / S_i` of places into the exponents `power log2(N_i / S_i) + log2 B_i`, and returns the largest, and the
 /// largest of those whose sums may have been cut off.
 ///

@@ -20,7 +20,9 @@ const LEAST_COUNT: f64 = 1e-6;
 /// More pairs of last and next choice than this are not kept: the rarest half goes.
 const MOST_PAIRS: usize = 1 << 16;
 
-/// How the destinations' priors are learnt from what is chosen: counts with a Dirichlet prior.
+/// How a predictor learns from what is chosen: the destinations' priors, by counts with a Dirichlet prior. With the method `pointing` it also
+/// learns how far the model holds for the user, [`Learnt`](crate::Learnt), which alone remains where the strength is as large as 1e50; other
+/// methods learn priors alone.
 ///
 /// ```
 /// use whither::Learning;

@@ -6,6 +6,7 @@ pub mod destination;
 pub mod endpoint;
 pub mod habits;
 pub mod initial;
+pub(crate) mod learnt;
 pub mod matrix;
 pub mod motion;
 pub mod observation;

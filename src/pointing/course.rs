@@ -83,6 +83,31 @@ impl Onset {
     pub const BEGUN: Self = Self { shortfall: 0.0, share: 1.0 };
 }
 
+/// The state of a movement after one observation, as far as probabilities depend on it: which observation it was, `t_k - t_1`, the
+/// square of how far it has been from its start, and of each axis position and velocity, their variances and covariance between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment(pub [f64; 3 + 5 * AXES]);
+
+impl Moment {
+    /// Which observation it was.
+    #[must_use]
+    pub const fn observations(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// `t_k - t_1`.
+    #[must_use]
+    pub const fn elapsed(&self) -> f64 {
+        self.0[1]
+    }
+
+    /// The position along an axis.
+    #[must_use]
+    pub const fn position(&self, axis: usize) -> f64 {
+        self.0[3 + 5 * axis]
+    }
+}
+
 /// The movement so far, without regard to the destinations.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Course<S> {
@@ -177,6 +202,28 @@ impl<S: Space> Course<S> {
         if way >= expected { Onset::BEGUN } else { Onset { shortfall: expected - way, share: way / expected } }
     }
 
+    /// The state now.
+    #[must_use]
+    pub fn moment(&self) -> Moment {
+        let mut moment = Moment([0.0; 3 + 5 * AXES]);
+        let (general, axes) = moment.0.split_at_mut(3);
+        general.copy_from_slice(&[self.observations as f64, self.elapsed, self.farthest]);
+        for (axis, into) in self.axes.iter().zip(axes.as_chunks_mut().0) {
+            let ([x, v], [[pp, pv], [_, vv]]) = (axis.now, axis.covariance);
+            *into = [x, v, pp, pv, vv];
+        }
+        moment
+    }
+
+    /// Goes back to a state, for what [`Moment`] is enough for.
+    pub fn recall(&mut self, Moment(numbers): &Moment) {
+        let (general, axes) = numbers.split_at(3);
+        (self.observations, self.elapsed, self.farthest) = (general[0] as u64, general[1], general[2]);
+        for (k, &[x, v, pp, pv, vv]) in axes.as_chunks().0.iter().enumerate() {
+            (self.axes[k].now, self.axes[k].covariance) = ([x, v], [[pp, pv], [pv, vv]]);
+        }
+    }
+
     /// The space of the movement.
     #[must_use]
     pub fn space(&self) -> S {
@@ -249,7 +296,7 @@ impl<S: Space> Course<S> {
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, space: S) -> Result<Self> {
         let (d, each) = (space.dimensions(), 20 * space.dimensions());
-        let fields = node.fields(&["elapsed", "observations", "axes"])?;
+        let fields = node.fields(&["elapsed", "observations", "axes", "trail"])?;
         let numbers = fields.required("axes")?.exact_numbers(3 * (d + 1) + 2 * each)?;
         let axes = load_axes(d, &numbers[3 * (d + 1)..][..each]);
         let axes_before = load_axes(d, &numbers[3 * (d + 1) + each..]);

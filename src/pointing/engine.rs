@@ -5,10 +5,12 @@ use super::course::Course;
 use super::parameters::{PointingConstants, axis_variances};
 use super::space::AnySpace;
 use super::targets::Targets;
+use super::trail::Trail;
 use crate::engine::{Engine, Observed};
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
+use crate::model::learnt::Learnt;
 use crate::posterior::arrival_time::ArrivalTime;
 use crate::posterior::remaining::Remaining;
 use crate::posterior::{Posterior, Shares};
@@ -40,7 +42,11 @@ impl PointingEngine {
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, parameters: Arc<PointingConstants>, destinations: &Destinations) -> Result<Self> {
         let course = Course::load(node, AnySpace(destinations.dimensions()))?;
-        Ok(Self(Pointing::resume(parameters, targets(destinations), course)))
+        let mut pointing = Pointing::resume(parameters, targets(destinations), course);
+        if let Some(trail) = node.get("trail") {
+            pointing.trail = Some(Box::new(Trail::load(&trail)?));
+        }
+        Ok(Self(pointing))
     }
 }
 
@@ -86,8 +92,23 @@ impl Engine for PointingEngine {
         self.0.replan(targets(destinations));
     }
 
+    fn apply(&mut self, learnt: &Learnt, keeps: bool) {
+        self.0.apply(learnt);
+        if keeps {
+            self.0.keep_trail();
+        }
+    }
+
+    fn learn(&mut self, chosen: usize, learnt: &mut Learnt) {
+        self.0.learn(chosen, learnt);
+    }
+
     fn save(&self) -> Value {
-        self.0.course().save()
+        let mut value = self.0.course().save();
+        if let (Value::Map(entries), Some(trail)) = (&mut value, &self.0.trail) {
+            entries.push(("trail".into(), trail.save()));
+        }
+        value
     }
 
     fn boxed(&self) -> Box<dyn Engine> {

@@ -2,6 +2,7 @@
 
 use super::targets::Extent;
 use super::{Vector, dot};
+use crate::model::learnt::Learnt;
 use whither_kernel::small_gaussian::{inverse, times};
 
 /// The time to the entry into the target: a median that follows the nodes, how near the pointer is to the edges of the targets
@@ -44,12 +45,14 @@ impl EntryTime {
         self.distance / (self.distance + edge)
     }
 
-    /// The median, and the ends of the interval, in seconds; within the resolution of a clock.
+    /// The median, and the ends of the interval, in seconds, for a user of whom this was learnt; within the resolution of a clock.
     #[must_use]
-    pub(crate) fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64) -> [f64; 3] {
+    pub(crate) fn at(&self, mean_log_node: f64, nearness: f64, elapsed: f64, learnt: &Learnt) -> [f64; 3] {
         let median =
             self.offset + self.nodes * mean_log_node + self.near * nearness + self.elapsed * elapsed / (elapsed + 1.0);
-        [median, median + self.low, median + self.high].map(|log| log.clamp(-20.0, 20.0).exp())
+        let mean = median + learnt.mean;
+        [mean, (median + self.low + learnt.low).min(mean), (median + self.high + learnt.high).max(mean)]
+            .map(|log| log.clamp(-20.0, 20.0).exp())
     }
 }
 

@@ -61,9 +61,19 @@ impl FromStart {
         log_volume: f64,
         course: &Course<S>,
         onset: Onset,
+        confidence: f64,
     ) {
         if self.onset.replace(onset) != Some(onset) {
             self.compute(targets, parameters, log_volume, (course.dimensions(), &course.start), onset);
+            self.temper(confidence);
+        }
+    }
+
+    /// Raises the priors to the confidence.
+    #[inline(never)]
+    fn temper(&mut self, confidence: f64) {
+        if confidence != 1.0 {
+            self.priors.as_flattened_mut().iter_mut().for_each(|prior| *prior = (confidence * prior.ln()).exp());
         }
     }
 

@@ -12,6 +12,7 @@
 //! | power | the first samples carry less evidence than the model has it, the later ones more | [`parameters::Power`] |
 //! | near | a movement seldom ends where it began | `evidence` |
 //! | onset | a pointer that rests from the start on has not begun a movement, and may mean what it rests on | `course` |
+//! | confidence | users differ in how far all of this holds for them: the log score times a factor that outcomes teach | `learning`, `trail` |
 //!
 //! `targets` and `kernel` compute it for all destinations at once; the other parts one destination at
 //! a time, for the log likelihoods and everything else.
@@ -28,6 +29,7 @@ pub(crate) mod evidence;
 mod form;
 pub(crate) mod from_start;
 pub(crate) mod kernel;
+mod learning;
 pub mod parameters;
 mod posterior;
 #[cfg(any(test, feature = "wasm-pointing"))]
@@ -35,8 +37,10 @@ pub(crate) mod sizes;
 pub(crate) mod space;
 mod state;
 pub(crate) mod targets;
+mod trail;
 
 use crate::math::log_sum_exp::share;
+use crate::model::learnt::Learnt;
 use course::{Course, Onset};
 use endpoint::Nodes;
 use evidence::{DirectionNow, log_start, near};
@@ -46,6 +50,7 @@ use parameters::PointingConstants;
 use space::Space;
 use std::sync::Arc;
 use targets::Targets;
+use trail::Trail;
 pub(crate) use whither_kernel::small_gaussian::Symmetric;
 
 /// A position, velocity or offset; components beyond the dimensions are zero.
@@ -88,6 +93,10 @@ pub(crate) struct Pointing<S> {
     nodes: Nodes<S>,
     from_start: FromStart,
     work: Work,
+    /// What is known of the user.
+    learnt: Learnt,
+    /// What is kept for [`Pointing::learn`], where it is and was not used yet.
+    trail: Option<Box<Trail>>,
 }
 
 impl<S: Space> Pointing<S> {
@@ -109,7 +118,17 @@ impl<S: Space> Pointing<S> {
     pub fn resume(parameters: Arc<PointingConstants>, targets: Arc<Targets>, course: Course<S>) -> Self {
         let (nodes, from_start) = (Nodes::new(&parameters, &course), FromStart::of(&targets, course.dimensions()));
         let log_volume = parameters.start.log_volume(course.dimensions());
-        Self { parameters, targets, log_volume, course, nodes, from_start, work: Work::default() }
+        Self {
+            parameters,
+            targets,
+            log_volume,
+            course,
+            nodes,
+            from_start,
+            work: Work::default(),
+            learnt: Learnt::default(),
+            trail: None,
+        }
     }
 
     /// Takes in one more observation, `elapsed` seconds after the first one; none marks an axis that was not observed. At the time
@@ -120,6 +139,9 @@ impl<S: Space> Pointing<S> {
             self.from_start.forget();
         }
         self.nodes.refresh(&self.parameters, &self.course);
+        if let Some(trail) = &mut self.trail {
+            trail.keep(&self.course);
+        }
     }
 
     fn onset(&self) -> Onset {
@@ -144,14 +166,15 @@ impl<S: Space> Pointing<S> {
         self.targets = targets;
     }
 
-    /// Writes weights of the targets, `prior_i near_i (N_i / S_i)^g e^B_i` with one scale for all, and returns what they sum to;
-    /// none where nothing is known of any of them.
+    /// Writes weights of the targets, `(prior_i near_i (N_i / S_i)^g e^B_i)^confidence` with one scale for all, and returns what they sum
+    /// to; none where nothing is known of any of them.
     fn weights(&mut self, into: &mut Vec<f64>) -> Option<Total> {
-        let (onset, d) = (self.onset(), self.course.dimensions());
+        let (onset, d, confidence) = (self.onset(), self.course.dimensions(), self.confidence());
         let Self { parameters, targets, course, .. } = self;
         if course.observations > 1 {
-            self.from_start.update(targets, parameters, self.log_volume, course, onset);
-            let way = DirectionNow::new(&parameters.direction, course).way(parameters.power.after(course.elapsed));
+            self.from_start.update(targets, parameters, self.log_volume, course, onset, confidence);
+            let power = parameters.power.after(course.elapsed);
+            let way = DirectionNow::new(&parameters.direction, course).way(power).times(confidence);
             let now = Now { nodes: &self.nodes, way: &way };
             let total = self.work.weights(targets, &self.from_start, &now, into);
             if total.is_some() {
@@ -169,12 +192,17 @@ impl<S: Space> Pointing<S> {
             if prior != known {
                 (known, log_prior) = (prior, (prior / total).ln());
             }
-            *value += onset.share * log_near + log_prior;
+            *value += confidence * (onset.share * log_near + log_prior);
         }
         share(into).map(|log_scale| Total { total: 1.0, log_scale })
     }
 
-    /// `g (ln N_i - ln S_i) + B_i` for every target; zero after the first observation alone.
+    /// The log score is multiplied by this: it holds from the second observation on.
+    fn confidence(&self) -> f64 {
+        if self.course.observations > 1 { self.learnt.confidence } else { 1.0 }
+    }
+
+    /// `g (ln N_i - ln S_i) + B_i` for every target, times the confidence; zero after the first observation alone.
     pub fn log_likelihoods(&self, into: &mut Vec<f64>) {
         let parameters = &*self.parameters;
         into.clear();
@@ -184,13 +212,13 @@ impl<S: Space> Pointing<S> {
         }
         let power = parameters.power.after(self.course.elapsed);
         let direction = DirectionNow::new(&parameters.direction, &self.course);
-        let (pairs, onset) = (self.nodes.pairs(), self.onset());
+        let (pairs, onset, confidence) = (self.nodes.pairs(), self.onset(), self.confidence());
         into.extend((0..self.targets.len()).map(|i| {
             let (center, extent) = (self.targets.center(i), self.targets.extent(i));
             let offset = minus(&center, &self.course.start);
             let start = log_start(&parameters.start, &offset, &onset) - self.log_volume;
             let evidence = direction.log_evidence(&offset, extent);
-            let sum = power * (pairs.log_density(&center, extent) - start) + evidence;
+            let sum = confidence * (power * (pairs.log_density(&center, extent) - start) + evidence);
             // beyond the range of numbers, as far away and as fast as nothing on a screen, nothing is known
             if sum < f64::INFINITY { sum } else { f64::NEG_INFINITY }
         }));

@@ -18,7 +18,8 @@ impl<S: Space> Pointing<S> {
         let none = match none {
             0.0 => 0.0,
             none => {
-                let log_odds = (none / (1.0 - none)).ln() + self.log_likelihood_of_none() - (total.ln() + log_scale);
+                let log_odds = self.confidence() * ((none / (1.0 - none)).ln() + self.log_likelihood_of_none())
+                    - (total.ln() + log_scale);
                 (1.0 - kept) / (1.0 + (-log_odds).exp()) + kept * none
             }
         };
@@ -41,7 +42,7 @@ impl<S: Space> Pointing<S> {
             near += share * entry.nearness(&minus(&center, &position), extent, course.dimensions());
             total += share;
         }
-        Some(entry.at(mean / total, near / total, course.elapsed))
+        Some(entry.at(mean / total, near / total, course.elapsed, &self.learnt))
     }
 
     /// The posterior of the arrival time, in seconds since the first observation.

@@ -7,7 +7,7 @@ use super::arrival_time::ArrivalTime;
 /// With the papers' methods it lies between the tenth and the ninetieth percentile of the posterior of the arrival time. With
 /// `pointing` it was fitted to hold four fifths of the samples of recorded mouse movements, and holds 83, 77 and 83% on three
 /// sets, but does not leave a tenth on each side: 1, 3 and 9% enter before `low`, 15, 20 and 8% after `high`. On other devices
-/// it holds less.
+/// it holds less, until it is learnt ([`Learnt`](crate::Learnt)).
 ///
 /// ```
 /// use whither::{Predictor, Scenario};

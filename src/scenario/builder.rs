@@ -93,7 +93,7 @@ impl ScenarioBuilder {
         Self { none, ..self }
     }
 
-    /// How the destinations' priors are learnt from what is chosen; by default they are not.
+    /// How is learnt from what is chosen; by default nothing is.
     #[must_use]
     pub fn learning(self, learning: Learning) -> Self {
         Self { learning: Some(learning), ..self }

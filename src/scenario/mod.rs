@@ -49,7 +49,7 @@ pub struct Scenario {
     pub(crate) setup: Setup,
     /// The prior probability that the object goes to none of the destinations, at least 0 and less than 1.
     pub(crate) none: f64,
-    /// How the destinations' priors are learnt from what is chosen, where they are.
+    /// How is learnt from what is chosen, where something is.
     pub(crate) learning: Option<Learning>,
     /// Where it may be going.
     pub(crate) destinations: Arc<Destinations>,

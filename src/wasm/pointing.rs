@@ -7,6 +7,7 @@
 //! | `constants` | as [`constants`] returns them |
 //! | `targets` | of each target `x`, `y`, width, height, prior |
 
+use crate::Learnt;
 use crate::pointing::Pointing;
 use crate::pointing::defaults::{OBSERVATION_NOISE, REMAINING};
 use crate::pointing::entry_time::EntryTime;
@@ -31,6 +32,11 @@ pub struct PointerEngine {
     variances: [f64; 2],
     /// The prior probability of none of the targets.
     prior_none: f64,
+    /// Whether movements keep what can be learnt from.
+    learning: bool,
+    learnt: Learnt,
+    /// The same for JavaScript.
+    learnt_numbers: [f64; 7],
     targets: Arc<Targets>,
     movement: Option<Box<Pointing<Plane>>>,
     probabilities: Vec<f64>,
@@ -49,6 +55,9 @@ impl PointerEngine {
             parameters: Arc::new(parameters),
             variances: deviations.map(|deviation| deviation * deviation),
             prior_none: none,
+            learning: false,
+            learnt: Learnt::default(),
+            learnt_numbers: [0.0; 7],
             targets: read_targets(targets),
             movement: None,
             probabilities: Vec::new(),
@@ -80,7 +89,12 @@ impl PointerEngine {
             return;
         }
         let (parameters, targets) = (Arc::clone(&self.parameters), Arc::clone(&self.targets));
-        self.movement = Some(Box::new(Pointing::begin(Plane, parameters, targets, &[x, y], &self.variances)));
+        let mut movement = Pointing::begin(Plane, parameters, targets, &[x, y], &self.variances);
+        movement.apply(&self.learnt);
+        if self.learning {
+            movement.keep_trail();
+        }
+        self.movement = Some(Box::new(movement));
     }
 
     fn refresh(&mut self) {
@@ -156,6 +170,34 @@ impl PointerEngine {
             }
         }
         path
+    }
+
+    /// Movements keep from now on what can be learnt from.
+    pub fn keep_trails(&mut self) {
+        self.learning = true;
+    }
+
+    /// Learns that the movement goes to a target.
+    pub fn chosen(&mut self, target: usize) {
+        self.stale = true;
+        if let Some(movement) = &mut self.movement {
+            movement.learn(target, &mut self.learnt);
+        }
+    }
+
+    /// The address of what was learnt of the user, seven numbers.
+    pub fn learnt(&mut self) -> *const f64 {
+        self.learnt_numbers = self.learnt.numbers();
+        self.learnt_numbers.as_ptr()
+    }
+
+    /// Goes on with what JavaScript wrote where [`PointerEngine::learnt`] points to.
+    pub fn apply_learnt(&mut self) {
+        self.stale = true;
+        self.learnt = Learnt::of(self.learnt_numbers);
+        if let Some(movement) = &mut self.movement {
+            movement.apply(&self.learnt);
+        }
     }
 
     /// Ends the movement.

@@ -2,6 +2,7 @@
 
 use super::error::WhitherError;
 use super::{Result, flat};
+use crate::Learnt;
 use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::snapshot::Snapshot;
@@ -23,6 +24,14 @@ extern "C" {
 #[derive(Debug)]
 pub struct Engine {
     predictor: Predictor,
+    /// What was learnt, for JavaScript.
+    learnt_numbers: [f64; 7],
+}
+
+impl Engine {
+    fn of(predictor: Predictor) -> Self {
+        Self { predictor, learnt_numbers: [0.0; 7] }
+    }
 }
 
 #[wasm_bindgen]
@@ -31,17 +40,17 @@ impl Engine {
     #[wasm_bindgen(constructor)]
     pub fn new(value: &[u8]) -> Result<Engine> {
         let scenario = Scenario::from_value(&Value::from_bytes(value)?)?;
-        Ok(Self { predictor: Predictor::new(&scenario) })
+        Ok(Self::of(Predictor::new(&scenario)))
     }
 
     /// From a snapshot.
     pub fn restore(value: &[u8]) -> Result<Engine> {
-        Ok(Self { predictor: Predictor::restore(&Snapshot(Value::from_bytes(value)?))? })
+        Ok(Self::of(Predictor::restore(&Snapshot(Value::from_bytes(value)?))?))
     }
 
     /// A second engine in the same state.
     pub fn duplicate(&self) -> Engine {
-        Self { predictor: self.predictor.clone() }
+        Self::of(self.predictor.clone())
     }
 
     /// A snapshot.
@@ -181,6 +190,17 @@ impl Engine {
     /// Begins a new movement.
     pub fn reset(&mut self) {
         self.predictor.reset();
+    }
+
+    /// The address of what was learnt of the user, seven numbers.
+    pub fn learnt(&mut self) -> *const f64 {
+        self.learnt_numbers = self.predictor.learnt().numbers();
+        self.learnt_numbers.as_ptr()
+    }
+
+    /// Goes on with what JavaScript has checked and wrote where [`Engine::learnt`] points to.
+    pub fn apply_learnt(&mut self) {
+        self.predictor.apply_learnt(Learnt::of(self.learnt_numbers));
     }
 
     /// Counts `{ id }` as chosen.

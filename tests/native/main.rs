@@ -16,6 +16,7 @@ mod imports;
 mod life;
 mod movements;
 mod numerics;
+mod outcomes;
 mod pointing;
 mod pointing_times;
 mod problem;
