@@ -4,6 +4,7 @@
  *
  * @module
  */
+import type { Learnt } from "../core/learnt.js";
 import type { WatchTarget } from "./types.js";
 
 /** How a press was predicted. */
@@ -24,6 +25,8 @@ export interface Outcome<T extends WatchTarget = WatchTarget> {
   readonly lead: number;
   /** Its posterior probability before the press. */
   readonly probability: number;
+  /** What is known of the user after it, for the option of that name on the next visit; null without `learning`. */
+  readonly learnt: Learnt | null;
 }
 
 /** The numbers over all presses of a ledger. */

@@ -73,6 +73,7 @@ const LEGAL: readonly (readonly [options: object, path: string, value: unknown])
   [{ record: true }, "record", true],
   [{ constants }, "constants", constants],
   [{ predictor: call }, "predictor", call],
+  [{ learnt: constants }, "learnt", constants],
   [{ signal }, "signal", signal],
   ...["onIntent", "onRelease", "onPrediction", "onOutcome", "onError"].map((key) => [{ [key]: call }, key, call] as const),
 ];
@@ -141,6 +142,7 @@ const WRONG: readonly (readonly [options: object, code: string, path: string])[]
   [{ constants: 5 }, "wrong-type", "constants"],
   [{ predictor: {} }, "wrong-type", "predictor"],
   [{ learning: "much" }, "wrong-type", "learning"],
+  [{ learnt: 0.8 }, "wrong-type", "learnt"],
   [{ learning: 0 }, "out-of-range", "learning"],
   [{ record: "yes" }, "wrong-type", "record"],
   [{ signal: {} }, "wrong-type", "signal"],
@@ -182,7 +184,7 @@ describe("options", () => {
   });
 
   it("have every key in the tables of this test", () => {
-    const keys = [...Object.keys(DEFAULTS), "constants", "predictor", "signal"];
+    const keys = [...Object.keys(DEFAULTS), "constants", "predictor", "learnt", "signal"];
     keys.push("onIntent", "onRelease", "onPrediction", "onOutcome", "onError");
     let message = "";
     try {

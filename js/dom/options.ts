@@ -21,7 +21,7 @@ type After = number | null;
 export interface Settings
   extends Pick<
     WatchOptions,
-    "constants" | "predictor" | "signal" | "onIntent" | "onRelease" | "onPrediction" | "onOutcome" | "onError"
+    "constants" | "predictor" | "learnt" | "signal" | "onIntent" | "onRelease" | "onPrediction" | "onOutcome" | "onError"
   > {
   readonly root: ParentNode & Node;
   readonly threshold: number;
@@ -163,6 +163,7 @@ const OPTIONS: Table = {
   decorate: [flag, true],
   constants: [is("object")],
   predictor: [callback],
+  learnt: [is("object")],
   learning: [
     (value, path) =>
       typeof value === "boolean" ? (value ? STRENGTH : null) : within("must be greater than 0", (x) => x > 0)(value, path),

@@ -4,6 +4,7 @@
  * @module
  */
 import type { Gaussian } from "../core/gaussian.js";
+import type { Learnt } from "../core/learnt.js";
 import type { Remaining } from "../core/predictor.js";
 import type { Scenario } from "../core/scenario.js";
 import type { PointerConstants } from "../pointing/constants.js";
@@ -133,6 +134,12 @@ export interface Predictor {
   setTargets(targets: readonly PredictedTarget[]): void;
   /** Begins a new movement. */
   reset(): void;
+  /** A target was pressed, at the end of the movement. */
+  chosen?(id: string): void;
+  /** What the presses have taught about the user. */
+  learnt?(): Learnt;
+  /** Goes on with what was learnt before; null: with a user of whom nothing is known. Called at the beginning of each movement. */
+  setLearnt?(learnt: Learnt | null): void;
   /** Gives back what it holds; it is not used again. */
   free(): void;
 }
@@ -150,7 +157,7 @@ export interface PredictedTarget {
 /** Makes a predictor: `new PointerPredictor(targets, options)` unless the options have another. */
 export type MakePredictor = (
   targets: readonly PredictedTarget[],
-  options: { readonly none: number; readonly constants: WatchOptions["constants"] },
+  options: { readonly none: number; readonly constants: WatchOptions["constants"]; readonly learning: boolean },
 ) => Predictor;
 
 /** What `watch` takes, all of it changeable by `update`. */
@@ -188,8 +195,13 @@ export interface WatchOptions<T extends WatchTarget = WatchTarget> {
   readonly constants?: PointerConstants | Omit<Scenario, "destinations"> | undefined;
   /** Another model in place of `PointerPredictor`; then that is not loaded. @defaultValue none */
   readonly predictor?: MakePredictor | undefined;
-  /** Learns the priors of targets with an id from what is pressed; the number is how many presses the priors are worth. @defaultValue false */
+  /**
+   * Learns from what is pressed: the priors of targets with an id, and how far the model of pointing holds for the user. The number is how
+   * many presses the priors are worth. @defaultValue false
+   */
   readonly learning?: boolean | number | undefined;
+  /** What was learnt of the user before, on another page or visit: the `learnt` of an {@link Outcome}. @defaultValue nothing */
+  readonly learnt?: Learnt | null | undefined;
   /** Keeps the samples, for `ledger.lines()`. @defaultValue false */
   readonly record?: boolean | undefined;
   /** Stops the watcher. @defaultValue none */

@@ -187,7 +187,7 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#take(exchange);
     const differs = (key: keyof Settings) => before[key] !== settings[key];
     if (differs("root")) this.#presence.watch([], []);
-    if (differs("none") || differs("constants") || differs("predictor")) this.#prediction?.renew();
+    if (differs("none") || differs("constants") || differs("predictor") || differs("learning")) this.#prediction?.renew();
     if (!settings.decorate) {
       this.#prediction?.decorate(false);
       this.#intents.unmark();

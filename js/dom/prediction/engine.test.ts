@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
+import type { Outcome } from "../ledger.js";
 import { readOptions } from "../options.js";
 import type { Target } from "../targets.js";
 import { TestPage } from "../testing/page.js";
@@ -256,13 +257,13 @@ describe("predictors", () => {
     let given: unknown;
     const make: MakePredictor = (_, options) => {
       given = options;
-      return core([], { none: 0, constants: undefined });
+      return core([], { none: 0, constants: undefined, learning: false });
     };
     const constants = {} as never;
-    open({ made: make, options: { none: 0.2, constants } })
+    open({ made: make, options: { none: 0.2, constants, learning: 3 } })
       .engine.borrow([])
       ?.free();
-    assert.deepEqual(given, { none: 0.2, constants });
+    assert.deepEqual(given, { none: 0.2, constants, learning: true });
   });
 });
 
@@ -378,5 +379,43 @@ describe("a watcher's predictors", () => {
     // 2.5 of 5 before the press, and 3.5 of 6 after it
     assert.ok(Math.abs((await press(true)) - 3.5 / 6) < 1e-12);
     assert.equal(await press(false), 0.5);
+  });
+
+  it("learn from presses how far the model holds for the user, where that is asked for, and go on with it on the next visit", async () => {
+    const visit = async (options: WatchOptions) => {
+      const page = new TestPage({ core });
+      page.append("button", { ...BOX, x: 0 }, { attributes: { id: "left" } });
+      page.append("button", BOX, { attributes: { id: "right" } });
+      const errors: unknown[] = [];
+      const learnt: (Outcome["learnt"] | undefined)[] = [];
+      const onOutcome = (outcome: Outcome) => learnt.push(outcome.learnt);
+      const watcher = page.watch("button", { load: "eager", onOutcome, onError: (error) => errors.push(error), ...options });
+      await watcher.ready;
+      page.advance(20);
+      for (let x = 200; x <= 620; x += 14) {
+        page.point("pointermove", x, 300);
+        page.advance(10);
+      }
+      const probability = watcher.best?.probability ?? 0;
+      page.point("pointerdown", 620, 300);
+      page.advance(1000);
+      watcher.stop();
+      return { learnt: learnt[0], probability, errors };
+    };
+    const first = await visit({ learning: true });
+    assert.equal(first.learnt?.movements, 1);
+    assert.notEqual(first.learnt?.confidence, 1);
+    assert.notEqual(first.learnt?.mean, 0, "it knows when the pointer entered");
+    const second = await visit({ learning: 5, learnt: JSON.parse(JSON.stringify(first.learnt)) });
+    assert.equal(second.learnt?.movements, 2);
+    assert.deepEqual([first.errors, second.errors], [[], []]);
+    const without = await visit({ learnt: { confidence: 0.3 } });
+    assert.equal(without.learnt, null);
+    assert.ok(without.probability < first.probability);
+    // what is no such object is reported, and nothing is lost by it
+    const damaged = await visit({ learning: true, learnt: { confidence: 99 } });
+    assert.deepEqual(damaged.errors.map(String), ["WhitherError: learnt.confidence: must be from 0.2 to 3, got 99"]);
+    assert.deepEqual(damaged.learnt, first.learnt);
+    assert.equal(damaged.probability, first.probability);
   });
 });

@@ -3,6 +3,7 @@
  *
  * @module
  */
+import type { Learnt } from "../../core/learnt.js";
 import type { Settings } from "../options.js";
 import type { Target } from "../targets.js";
 import type { MakePredictor, PredictedTarget, Predictor } from "../types.js";
@@ -18,6 +19,9 @@ export class Engine {
   #generation = 0;
   #list: readonly PredictedTarget[] = [];
   #listed: readonly Target[] | null = null;
+  /** What the options have, and what is known since. */
+  #stated: Learnt | null | undefined;
+  #learnt: Learnt | null = null;
   /** The generation in which no predictor could be made. */
   #refused = -1;
 
@@ -51,7 +55,7 @@ export class Engine {
    */
   borrow(targets: readonly PredictedTarget[]): Predictor | null {
     if (this.#refused === this.#generation) return null;
-    const { none, constants, predictor } = this.#settings();
+    const { none, constants, predictor, learning } = this.#settings();
     const idle = this.#idle.pop();
     idle?.setTargets(targets);
     if (idle) return idle;
@@ -64,9 +68,47 @@ export class Engine {
       }, this.#failed);
       return null;
     }
-    const made = make(targets, { none, constants });
+    const made = make(targets, { none, constants, learning: learning !== null });
     this.#refused = -1;
     return made;
+  }
+
+  /** What is known of the user; null where nothing is, and without `learning`. */
+  get learnt(): Learnt | null {
+    return this.#settings().learning === null ? null : this.#learnt;
+  }
+
+  /** A predictor goes on with what is known of the user: by the options, or from presses since. */
+  brief(predictor: Predictor): void {
+    const { learnt } = this.#settings();
+    if (learnt !== this.#stated) this.#learnt = (this.#stated = learnt) ?? null;
+    const known = this.#learnt;
+    // what the core refuses is reported once, and forgotten
+    this.#learnt = null;
+    this.#attempt(() => {
+      predictor.setLearnt?.(known);
+      this.#learnt = known;
+    });
+  }
+
+  /** The movement that a predictor gets to its end by `observe` has led to a press on the target of this key. */
+  learn(predictor: Predictor, key: string, observe: () => void): void {
+    if (this.#settings().learning === null) return;
+    this.brief(predictor);
+    this.#attempt(() => {
+      observe();
+      predictor.chosen?.(key);
+      this.#learnt = predictor.learnt?.() ?? this.#learnt;
+    });
+  }
+
+  /** A page's own predictor, and what it was given to learn, must not fail into the page. */
+  #attempt(run: () => void): void {
+    try {
+      run();
+    } catch (error) {
+      this.#failed(error);
+    }
   }
 
   /** Takes back a predictor that was made in a generation. */
@@ -136,11 +178,11 @@ export class PointerPosterior {
     const predictor = this.#predictor;
     if (this.#movement !== movement) {
       predictor.reset();
+      this.#engine.brief(predictor);
       this.#movement = movement;
       this.#observed = 0;
     }
-    for (const { time, x, y } of movement.after(this.#observed)) predictor.observe((this.last = time), [x, y]);
-    this.#observed = movement.count;
+    this.#observe(predictor, movement);
     if (this.targets !== active) {
       this.targets = active;
       this.#places = new Map(active.map((target, i) => [target, i]));
@@ -149,6 +191,18 @@ export class PointerPosterior {
     predictor.probabilities(this.probabilities);
     this.none = predictor.none;
     return true;
+  }
+
+  #observe(predictor: Predictor, movement: Movement): void {
+    for (const { time, x, y } of movement.after(this.#observed)) predictor.observe((this.last = time), [x, y]);
+    this.#observed = movement.count;
+  }
+
+  /** Learns that a movement has led to a press on a target. */
+  learn(movement: Movement, target: Target): void {
+    const predictor = this.#predictor;
+    if (!predictor || this.#movement !== movement || !this.#places.has(target)) return;
+    this.#engine.learn(predictor, target.key, () => this.#observe(predictor, movement));
   }
 
   /** The prior probability of the target at a place, given that it goes to one of them. */

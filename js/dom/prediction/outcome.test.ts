@@ -18,7 +18,7 @@ function press(meant: readonly (readonly [Target, number])[], active: readonly T
   movement.add({ time: 1, x: 10, y: 20 });
   movement.add({ time: 1.25, x: 60, y: 30 });
   for (const [target, time] of meant) movement.meant.push({ target, time });
-  return outcomeOf(new Hand("pen"), seats, movement, 1500, 0.75, active);
+  return outcomeOf(new Hand("pen"), seats, movement, 1500, 0.75, null, active);
 }
 
 const judged = (...meant: readonly (readonly [Target, number])[]) => {
@@ -55,6 +55,7 @@ describe("outcome", () => {
       mistaken: null,
       lead: 0.25,
       probability: 0.75,
+      learnt: null,
     });
   });
 

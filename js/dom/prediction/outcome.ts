@@ -3,6 +3,7 @@
  *
  * @module
  */
+import type { Learnt } from "../../core/learnt.js";
 import type { Hand, Meant } from "../hand.js";
 import type { Outcome } from "../ledger.js";
 import { idOf, isGone, type Target } from "../targets.js";
@@ -25,6 +26,7 @@ export function outcomeOf(
   movement: Movement,
   time: number,
   probability: number,
+  learnt: Learnt | null,
   active: readonly Target[] | null,
 ): Press {
   const { node, settings } = target;
@@ -37,6 +39,7 @@ export function outcomeOf(
     pointerType,
     ...judge(movement.meant, target, time),
     probability,
+    learnt,
   };
   return { target, outcome, leaders: movement.leaders, line: active && lineOf(active, target, movement) };
 }

@@ -107,7 +107,9 @@ export class Prediction {
     if (!track || !movement || !target) return null;
     const { platform, settings } = this.#parts;
     const active = settings().record ? track.posterior.targets : null;
-    const press = outcomeOf(hand, target, movement, platform.now(), track.probability(target), active);
+    const probability = track.probability(target);
+    track.posterior.learn(movement, target);
+    const press = outcomeOf(hand, target, movement, platform.now(), probability, this.#engine.learnt, active);
     this.ledger.add(press);
     this.#engine.relist();
     return press.outcome;
