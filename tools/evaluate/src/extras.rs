@@ -4,11 +4,10 @@
 use crate::methods::Template;
 use presentation::table;
 use serde_json::{Value as Json, json};
-use std::collections::BTreeMap;
-use whither::Predictor;
 use whither::internals::{Value, track_scenario};
 use whither::study::metrics::{BINS, Bin, calibration_error};
 use whither::study::track::Track;
+use whither::{Learnt, Predictor};
 
 /// The priors of "none" that are tried.
 pub const PRIORS: [f64; 2] = [0.2, 0.5];
@@ -38,14 +37,21 @@ pub struct Sums {
     late: [Vec<(f64, bool)>; PRIORS.len()],
 }
 
-/// Runs one track; its number decides whether its target is taken out for the score of "none".
-pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -> Result<Extras, String> {
+/// Runs one track of a user of whom this is known; its number decides whether its target is taken out for the score of "none".
+pub fn run(
+    template: &Template,
+    track: &Track,
+    approach: usize,
+    number: usize,
+    learnt: &Learnt,
+) -> Result<Extras, String> {
     let message = |error: whither::Error| error.to_string();
     let mut results = Extras::default();
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
     let scenario = track_scenario(track, &template.scenario, &template.extra).map_err(message)?;
     let mut predictor = Predictor::new(&scenario);
+    predictor.set_learnt(*learnt).map_err(message)?;
     for sample in &samples[..approach - 1] {
         sample.observe(&mut predictor).map_err(message)?;
         let Some(remaining) = predictor.remaining() else { continue };
@@ -68,6 +74,7 @@ pub fn run(template: &Template, track: &Track, approach: usize, number: usize) -
         }
         let scenario = track_scenario(&shown, &with_none, &template.extra).map_err(message)?;
         let mut predictor = Predictor::new(&scenario);
+        predictor.set_learnt(*learnt).map_err(message)?;
         let weight = 2.0 * if absent { prior } else { 1.0 - prior };
         for sample in samples {
             sample.observe(&mut predictor).map_err(message)?;
@@ -103,6 +110,20 @@ impl Sums {
         }
     }
 
+    /// Adds others' results.
+    pub fn merge(&mut self, other: &Self) {
+        self.when.iter_mut().zip(other.when).for_each(|(to, from)| *to += from);
+        self.movements.iter_mut().zip(other.movements).for_each(|(to, from)| *to += from);
+        for k in 0..PRIORS.len() {
+            for (to, from) in self.bins[k].iter_mut().zip(other.bins[k]) {
+                to.count += from.count;
+                to.predicted += from.predicted;
+                to.happened += from.happened;
+            }
+            self.late[k].extend(&other.late[k]);
+        }
+    }
+
     fn row(&self) -> Vec<f64> {
         let [samples, error, before, after] = self.when;
         let [movements, errors] = self.movements;
@@ -134,7 +155,7 @@ fn area_under_curve(results: &[(f64, bool)]) -> f64 {
 }
 
 /// Prints a table, and returns the same as JSON.
-pub fn report(sets: &BTreeMap<String, Sums>) -> Json {
+pub fn report<'a>(sets: impl IntoIterator<Item = (String, &'a Sums)>) -> Json {
     let when =
         ["time to the entry: error over samples, s", "over movements, s", "within the 80%", "before it", "after it"];
     let mut header = vec!["set".to_owned()];

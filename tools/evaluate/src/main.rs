@@ -13,6 +13,7 @@ mod habits;
 mod intents;
 mod learning;
 mod methods;
+mod outcomes;
 mod peers;
 mod reading;
 mod report;
@@ -24,6 +25,7 @@ use crossings::Crossings;
 use extras::{Extras, Sums};
 use foresight::Foresight;
 use methods::{Method, Template};
+use outcomes::Gains;
 use peers::Peer;
 use report::{Results, Set};
 use serde_json::{Value as Json, json};
@@ -31,14 +33,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use variants::Variant;
+use whither::Learnt;
 use whither::study::metrics::Score;
 
 /// Options of the usual tables only.
-const OF_SCORES: [&str; 8] = ["scenario", "more", "thresholds", "ours", "users", "margin", "every", "charts"];
+const OF_SCORES: [&str; 9] =
+    ["scenario", "more", "learning", "thresholds", "ours", "users", "margin", "every", "charts"];
 
 /// Options and tables that have nothing to do with intents.
-const NOT_OF_INTENTS: [&str; 10] =
-    ["scenario", "more", "thresholds", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
+const NOT_OF_INTENTS: [&str; 11] =
+    ["scenario", "more", "learning", "thresholds", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
 
 /// The error where nothing was scored.
 const NOTHING: &str = "nothing to score: too few tracks enter their target";
@@ -60,6 +64,10 @@ struct Arguments {
     /// half of the tracks.
     #[arg(long)]
     more: bool,
+    /// Score the first of our scenarios without and with what the outcomes of each user's movements before have taught, in the order of
+    /// the file; with --more on the time to the entry and "none", too.
+    #[arg(long)]
+    learning: bool,
     /// Print when the posterior of the first of our scenarios first crosses a threshold, too: right and wrong, how early, how often, by the
     /// threshold and the release, after a rest, and by other rules. Computed on the posteriors; what whither/dom makes of them on a page
     /// is replayed by --intents and --wandering.
@@ -144,18 +152,25 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let mut skipped = 0;
     let mut more = arguments.more.then(BTreeMap::new);
     let mut crossings = arguments.thresholds.then(Crossings::new);
+    let mut gains = arguments.learning.then(Gains::new);
     for file in &arguments.files {
         let methods = methods_for(arguments, file)?;
         skipped += evaluate(arguments, file, &methods, &mut results, (more.as_mut(), crossings.as_mut()))?;
+        if let Some(gains) = &mut gains {
+            let template = template_for(file)?;
+            let margin = arguments.margin.unwrap_or(template.margin);
+            outcomes::run(&template, file, (margin, arguments.every), arguments.more, gains)?;
+        }
     }
     if results.sets.is_empty() {
         return Err(NOTHING.to_owned());
     }
     results.print(arguments.users);
-    let extras = more.map(|sums| extras::report(&sums));
+    let extras = more.map(|sums| extras::report(sums.iter().map(|(set, sums)| (set.clone(), sums))));
+    let gains = gains.map(|gains| outcomes::report(&gains, arguments.more));
     let crossings = crossings.map(|crossings| crossings::report(&crossings));
     print_skipped(skipped);
-    results.write(&arguments.json, extras, crossings)?;
+    results.write(&arguments.json, [extras, gains, crossings])?;
     let charts = chart::write_all(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
     Ok(())
@@ -251,7 +266,8 @@ fn score(
     let recorded = line.track(margin)?;
     let Some((track, approach)) = Variant::Every(every).of(&recorded, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    let extras = more.map(|template| extras::run(template, &track, approach, line.number)).transpose()?;
+    let extras =
+        more.map(|template| extras::run(template, &track, approach, line.number, &Learnt::default())).transpose()?;
     let crossing = thresholds.map(|template| crossings::run(template, &recorded, every)).transpose()?.flatten();
     Ok(Some((reading::part(&track), track.user, scores, extras, crossing)))
 }

@@ -145,13 +145,13 @@ impl Results {
     }
 
     /// Writes everything as JSON.
-    pub fn write(&self, path: &Path, more: Option<Json>, thresholds: Option<Json>) -> Result<(), String> {
+    pub fn write(&self, path: &Path, [more, learning, thresholds]: [Option<Json>; 3]) -> Result<(), String> {
         let sets: Vec<Json> = self
             .sets
             .iter()
             .map(|set| json!({ "set": set.name, "methods": set.rows.iter().map(Row::json).collect::<Vec<_>>() }))
             .collect();
-        write_json(path, &json!({ "sets": sets, "more": more, "thresholds": thresholds }))
+        write_json(path, &json!({ "sets": sets, "more": more, "learning": learning, "thresholds": thresholds }))
     }
 }
 
