@@ -48,7 +48,7 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 //!
-//! Pointers on a screen have [`pointer_scenario`], movements between places that are known [`ConditionallyMarkovSequence`], recorded
+//! Pointers on a screen have [`pointer_scenario`], rays [`ray_scenario`], hands in space [`hand_scenario`], movements between places that are known [`ConditionallyMarkovSequence`], recorded
 //! movements [`study`].
 //!
 //! # Features
@@ -163,6 +163,8 @@ pub use model::matrix::Matrix;
 pub use model::motion::{Motion, MotionNoise};
 pub use model::observation::{Observation, ObservationNoise};
 pub use model::per_axis::PerAxis;
+pub use pointer::hand::{HandOptions, HandTarget, LengthUnit, hand_scenario};
+pub use pointer::ray::{AngleUnit, RayMap, RayOptions, RayTarget, ray_scenario};
 pub use pointer::{PointerOptions, PointerTarget, pointer_scenario};
 pub use pointing::parameters::PointingConstants;
 pub use posterior::Best;

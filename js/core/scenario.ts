@@ -289,7 +289,7 @@ export interface BoxDestination extends DestinationBase {
 /** Where the object may be going. */
 export type Destination = GaussianDestination | BoxDestination;
 
-/** The constants of the method `pointing`, in pixels and seconds. */
+/** The constants of the method `pointing`, in pixels (or another unit of length, see `unit`) and seconds. */
 export interface Pointing {
   /** Noise scales of the way to go, each with the same weight, in px/s^1.5. */
   readonly noise: Vector;
@@ -356,6 +356,13 @@ export interface Pointing {
   readonly noneShare?: number | undefined;
   /** The share of probability that is spread over all destinations alike. */
   readonly uniform: number;
+  /**
+   * The length that the formulas take for a px: the median of the time to go holds at 950 of them a second, and what lies at the start
+   * itself counts as one of them away. Only a scenario in another unit of length has to state it.
+   *
+   * @defaultValue 1
+   */
+  readonly unit?: number | undefined;
   /**
    * The time to the entry into the target: its logarithm's median is
    * `offset + nodes E[ln R] + near E[distance / (distance + e)] + elapsed t / (t + 1 s)`, with `e` the way to the edge of a target

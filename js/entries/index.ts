@@ -26,4 +26,6 @@
 export { init, type InitOptions } from "../core/loading/embedded.js";
 export * from "../core/exports.js";
 export * from "../core/sequence.js";
+export * from "../pointing/hand.js";
+export * from "../pointing/ray.js";
 export * from "../pointing/scenario.js";

@@ -9,6 +9,8 @@ import type { WasmSource } from "../core/loading/source.js";
 
 export * from "../core/exports.js";
 export * from "../core/sequence.js";
+export * from "../pointing/hand.js";
+export * from "../pointing/ray.js";
 export * from "../pointing/scenario.js";
 
 /** What {@link init} takes here: where the WebAssembly is. */

@@ -67,6 +67,7 @@ const RULES: Rules = {
     noneOffset: number,
     noneShare: share,
     uniform: share,
+    unit: positive,
     remaining: { offset: number, nodes: number, near: number, distance: positive, elapsed: number, low: below, high: above },
   },
 };

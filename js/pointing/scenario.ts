@@ -1,7 +1,5 @@
-import { fromBytes } from "../core/bytes.js";
-import { loaded, pointer_scenario } from "../core/loading/instance.js";
-import { copyIn } from "../core/memory.js";
 import type { Scenario } from "../core/scenario.js";
+import { deviceScenario } from "./device.js";
 
 /** Something on a screen that a pointer may be going to. */
 export interface PointerTarget {
@@ -42,6 +40,5 @@ export interface PointerOptions {
  * ```
  */
 export function pointerScenario(targets: readonly PointerTarget[], options?: PointerOptions): Scenario {
-  loaded();
-  return fromBytes(pointer_scenario(copyIn({ targets, options }, "", 2))) as Scenario;
+  return deviceScenario(0, targets, options);
 }

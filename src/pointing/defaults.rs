@@ -1,4 +1,4 @@
-//! The default constants, for a pointer on a screen.
+//! The default constants, for a pointer on a screen, and those of other devices.
 //!
 //! Each was fitted on recorded mouse movements of 149 people, one setting for all; `docs/pointing.md` has what each is worth.
 //! Lengths are px, times s, angles radians.
@@ -34,6 +34,7 @@ const CONSTANTS: PointingConstants = PointingConstants {
     none_offset: -0.67,
     none_share: 0.1,
     uniform: 0.015,
+    unit: 1.0,
     remaining: Some(REMAINING),
 };
 
@@ -44,5 +45,106 @@ pub(crate) const REMAINING: EntryTime =
 impl Default for PointingConstants {
     fn default() -> Self {
         Self { scales: SCALES.to_vec(), ..CONSTANTS }
+    }
+}
+
+/// The places of other devices in the rows of [`OTHERS`].
+pub(crate) const RAY: usize = 0;
+pub(crate) const HAND: usize = 1;
+
+/// The constants of a ray, in degrees, and of a hand in space, in mm; all in thousandths, which take half the bytes. The ray's were
+/// fitted on recorded rays of 9 people, as azimuth and elevation and on a map alike, the hand's on movements of one person among the
+/// targets of the recording and among others; `docs/rays-and-hands.md` has what they are worth.
+const OTHERS: [[i32; 2]; 37] = [
+    // filter
+    [110_000, 393_000],
+    [2_000, 1_070],
+    [5_000, 25_000],
+    // noise scales, along and across noise
+    [106_000, 580_000],
+    [206_000, 2_720_000],
+    [4_200, 6_660],
+    [2_160, 3_620],
+    // time to go: from, to, median, spread, and the exponent of the speed: an arm that turns brakes evenly, the faster the longer
+    [103, 61],
+    [2_930, 878],
+    [106, 704],
+    [1_240, 798],
+    [883, -789],
+    // start: exponent, core, reach
+    [2_000, 2_000],
+    [1_180, 4_000],
+    [150_000, 750_000],
+    // direction: power, core, wide, distance, time
+    [5_610, 2_720],
+    [432, 146],
+    [410, 1_320],
+    [6_050, 29_400],
+    [142, 839],
+    // power: from, to, time
+    [238, 1_260],
+    [2_870, 4_720],
+    [111, 46],
+    // near, rest distance
+    [656, 1_500],
+    [2_000, 10_000],
+    // none: gain, offset, share; calibrated with the true target taken out of half of the movements
+    [4_200, 2_100],
+    [-1_500, -670],
+    [200, 100],
+    // uniform share, unit
+    [1, 5],
+    [100, 500],
+    // the time to the entry: offset, nodes, near, distance, elapsed, low, high
+    [230, -216],
+    [970, 447],
+    [-240, -1_920],
+    [2_000, 10_000],
+    [2_400, 1_490],
+    [-1_450, -1_100],
+    [950, 1_180],
+];
+
+impl PointingConstants {
+    /// The constants of a device at one of the places of [`OTHERS`].
+    #[must_use]
+    pub(crate) fn of(device: usize) -> Self {
+        let mut numbers = OTHERS.iter().map(|row| f64::from(row[device]) / 1000.0);
+        let mut next = || numbers.next().unwrap_or_default();
+        Self {
+            filter_noise: next(),
+            speed_noise: next(),
+            first_speed: [next(); 3],
+            scales: vec![next(), next()],
+            along_noise: next(),
+            across_noise: next(),
+            time_to_go: TimeToGo {
+                points: 7,
+                from: next(),
+                to: next(),
+                median: next(),
+                spread: next(),
+                speed_exponent: next(),
+            },
+            start: Start { exponent: next(), core: next(), reach: next() },
+            direction: Direction { power: next(), core: next(), wide: next(), distance: next(), time: next() },
+            power: Power { from: next(), to: next(), time: next() },
+            near: next(),
+            rest_distance: next(),
+            none_gain: next(),
+            none_offset: next(),
+            none_share: next(),
+            uniform: next(),
+            unit: next(),
+            remaining: Some(EntryTime {
+                offset: next(),
+                nodes: next(),
+                near: next(),
+                distance: next(),
+                elapsed: next(),
+                low: next(),
+                high: next(),
+            }),
+        }
     }
 }

@@ -69,7 +69,8 @@ impl<S: Space> Nodes<S> {
         self.motion = course.motion();
         let speed = course.speed();
         let TimeToGo { spread, speed_exponent, .. } = parameters.time_to_go;
-        self.times.set_weights((speed + 50.0) / 1000.0, speed_exponent, spread);
+        let unit = parameters.unit;
+        self.times.set_weights((speed + 50.0 * unit) / (1000.0 * unit), speed_exponent, spread);
         let (along, across) = (parameters.along_noise.powi(2), parameters.across_noise.powi(2));
         for (noise, scale) in self.noises.iter_mut().zip(&parameters.scales) {
             *noise = [scale * scale + across * speed * speed, along - across];

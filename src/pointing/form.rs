@@ -49,9 +49,10 @@ impl PointingConstants {
             "noneOffset",
             "noneShare",
             "uniform",
+            "unit",
             "remaining",
         ])?;
-        let or_zero = |key| fields.optional(key).map_or(Ok(0.0), |node| node.float());
+        let or = |default, key| fields.optional(key).map_or(Ok(default), |node| node.float());
         Ok(Self {
             scales: fields.required("noise")?.floats()?,
             along_noise: fields.float("alongNoise")?,
@@ -61,17 +62,18 @@ impl PointingConstants {
             direction: Direction::read(&fields.required("direction")?)?,
             power: Power::read(&fields.required("power")?)?,
             near: fields.float("near")?,
-            rest_distance: or_zero("restDistance")?,
+            rest_distance: or(0.0, "restDistance")?,
             none_gain: fields.float("noneGain")?,
-            none_offset: or_zero("noneOffset")?,
-            none_share: or_zero("noneShare")?,
+            none_offset: or(0.0, "noneOffset")?,
+            none_share: or(0.0, "noneShare")?,
             uniform: fields.float("uniform")?,
+            unit: or(1.0, "unit")?,
             remaining: fields.optional("remaining").map(|node| EntryTime::read(&node)).transpose()?,
             ..Self::default()
         })
     }
 
-    fn numbers(&self) -> Numbers<8> {
+    fn numbers(&self) -> Numbers<9> {
         [
             ("alongNoise", self.along_noise, NOT_NEGATIVE),
             ("acrossNoise", self.across_noise, NOT_NEGATIVE),
@@ -81,6 +83,7 @@ impl PointingConstants {
             ("noneOffset", self.none_offset, FINITE),
             ("noneShare", self.none_share, SHARE),
             ("uniform", self.uniform, SHARE),
+            ("unit", self.unit, POSITIVE),
         ]
     }
 

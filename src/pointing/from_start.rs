@@ -2,7 +2,7 @@
 
 use super::course::{Course, Onset};
 use super::evidence::{angular_variance, log_start, near};
-use super::parameters::{Direction, PointingConstants};
+use super::parameters::PointingConstants;
 use super::targets::Targets;
 use super::{Space, Vector, dot, minus};
 use whither_kernel::bearings;
@@ -96,7 +96,7 @@ impl FromStart {
             for (lane, (i, present)) in block.into_iter().enumerate() {
                 let offset = minus(&targets.center(i), start);
                 let log_start = log_start(&parameters.start, &offset, &onset) - log_volume;
-                let near = near(parameters.near, &offset, targets.extent(i), dimensions);
+                let near = near(parameters, &offset, targets.extent(i), dimensions);
                 // a movement that has begun takes neither a logarithm nor a power
                 let near = if onset.share == 1.0 { near } else { (onset.share * near.ln()).exp() };
                 self.moderate &= log_start.abs() < MODERATE && near > LEAST;
@@ -108,7 +108,7 @@ impl FromStart {
             self.over_start.push(over_start);
             self.priors.push(priors);
             if is_new {
-                self.add_bearings(targets, &parameters.direction, (dimensions, start), block);
+                self.add_bearings(targets, parameters, (dimensions, start), block);
             }
         }
         raise(&mut self.over_start, &[], 0.0);
@@ -118,7 +118,7 @@ impl FromStart {
     fn add_bearings(
         &mut self,
         targets: &Targets,
-        direction: &Direction,
+        PointingConstants { direction, unit, .. }: &PointingConstants,
         (dimensions, start): (usize, &Vector),
         block: [(usize, bool); WIDTH],
     ) {
@@ -133,7 +133,7 @@ impl FromStart {
             } else {
                 let over = 1.0 / square.sqrt();
                 (0..AXES).for_each(|axis| numbers[axis][lane] = offset[axis] * over);
-                angular_variance(&offset, targets.extent(i), dimensions)
+                angular_variance(*unit, &offset, targets.extent(i), dimensions)
             };
             let wide = direction.wide.powi(2) + variance;
             (numbers[count - 2][lane], numbers[count - 1][lane]) =
@@ -188,13 +188,14 @@ mod tests {
                 let (offset, extent) = (minus(&targets.center(i), start), targets.extent(i));
                 let log_start = log_start(&parameters.start, &offset, &onset);
                 close(found.over_start[block][lane], (log_volume - log_start).exp(), "over_start");
-                let near = near(parameters.near, &offset, extent, d).powf(onset.share);
+                let near = near(&parameters, &offset, extent, d).powf(onset.share);
                 let prior = if is_member { targets.priors()[i] / total * near } else { 0.0 };
                 close(found.priors[block][lane], prior, "prior");
                 let numbers: Vec<f64> =
                     found.bearings[block * count..][..count].iter().map(|block| block[lane]).collect();
                 let square = dot(&offset, &offset);
-                let variance = if square > 0.0 { angular_variance(&offset, extent, d) } else { NO_DIRECTION };
+                let variance =
+                    if square > 0.0 { angular_variance(parameters.unit, &offset, extent, d) } else { NO_DIRECTION };
                 let [wide, core] = [parameters.direction.wide, parameters.direction.core].map(|angle| angle * angle);
                 for (axis, component) in numbers[..count - 2].iter().enumerate() {
                     close(*component, if square > 0.0 { offset[axis] / square.sqrt() } else { 0.0 }, "component");

@@ -174,7 +174,7 @@ impl<S: Space> Pointing<S> {
         if course.observations > 1 {
             self.from_start.update(targets, parameters, self.log_volume, course, onset, confidence);
             let power = parameters.power.after(course.elapsed);
-            let way = DirectionNow::new(&parameters.direction, course).way(power).times(confidence);
+            let way = DirectionNow::new(parameters, course).way(power).times(confidence);
             let now = Now { nodes: &self.nodes, way: &way };
             let total = self.work.weights(targets, &self.from_start, &now, into);
             if total.is_some() {
@@ -188,7 +188,7 @@ impl<S: Space> Pointing<S> {
         let (mut known, mut log_prior) = (f64::NAN, f64::NAN);
         for (i, (value, &prior)) in into.iter_mut().zip(priors).enumerate() {
             let offset = minus(&self.targets.center(i), &self.course.start);
-            let log_near = near(self.parameters.near, &offset, self.targets.extent(i), d).ln();
+            let log_near = near(&self.parameters, &offset, self.targets.extent(i), d).ln();
             if prior != known {
                 (known, log_prior) = (prior, (prior / total).ln());
             }
@@ -211,7 +211,7 @@ impl<S: Space> Pointing<S> {
             return;
         }
         let power = parameters.power.after(self.course.elapsed);
-        let direction = DirectionNow::new(&parameters.direction, &self.course);
+        let direction = DirectionNow::new(parameters, &self.course);
         let (pairs, onset, confidence) = (self.nodes.pairs(), self.onset(), self.confidence());
         into.extend((0..self.targets.len()).map(|i| {
             let (center, extent) = (self.targets.center(i), self.targets.extent(i));

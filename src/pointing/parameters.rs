@@ -50,6 +50,9 @@ pub struct PointingConstants {
     pub none_share: f64,
     /// Share of the probability that all destinations have evenly.
     pub uniform: f64,
+    /// The length that the formulas take for a px: the median of the time to go holds at 950 of them a second, and what lies at the start
+    /// itself counts as one of them away. Only a scenario in another unit of length has to state it.
+    pub unit: f64,
     /// The time to the entry into the target, where it differs from the nodes' mean.
     pub remaining: Option<EntryTime>,
 }
@@ -70,11 +73,11 @@ pub struct TimeToGo {
     pub to: f64,
     /// How many nodes, evenly spaced in the logarithm.
     pub points: usize,
-    /// The median at 950 units of length a second, where `(speed + 50) / 1000` is one.
+    /// The median at 950 units of length a second, where `(speed + 50 unit) / (1000 unit)` is one.
     pub median: f64,
     /// The deviation of the logarithm.
     pub spread: f64,
-    /// The median goes with `((speed + 50) / 1000)^speedExponent`.
+    /// The median goes with `((speed + 50 unit) / (1000 unit))^speedExponent`.
     pub speed_exponent: f64,
 }
 

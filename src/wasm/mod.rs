@@ -20,7 +20,7 @@ mod sequence;
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 pub use error::WhitherError;
 #[cfg(feature = "wasm")]
-pub use pointer::pointer_scenario;
+pub use pointer::device_scenario;
 #[cfg(feature = "wasm-pointing")]
 pub use pointing::{PointerEngine, constants};
 #[cfg(feature = "wasm")]

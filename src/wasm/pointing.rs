@@ -249,7 +249,7 @@ impl Constants {
     }
 
     /// The numbers in their order.
-    fn places(&mut self) -> [&mut f64; 39] {
+    fn places(&mut self) -> [&mut f64; 40] {
         let Self { none, parameters: p, entry, points, deviations: [deviation_x, deviation_y] } = self;
         let ([speed_x, speed_y, _], time, direction) = (&mut p.first_speed, &mut p.time_to_go, &mut p.direction);
         [
@@ -285,6 +285,7 @@ impl Constants {
             &mut p.none_offset,
             &mut p.none_share,
             &mut p.uniform,
+            &mut p.unit,
             &mut entry.offset,
             &mut entry.nodes,
             &mut entry.near,

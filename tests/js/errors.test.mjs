@@ -2,7 +2,7 @@
 // rows are), and what only JavaScript can hand over. After each error all goes on.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { ConditionallyMarkovSequence, init, pointerScenario, Predictor } from "whither";
+import { ConditionallyMarkovSequence, handScenario, init, pointerScenario, Predictor, rayScenario } from "whither";
 import { changed, movement, read, refuses, same, small } from "./support.mjs";
 
 await init();
@@ -14,6 +14,8 @@ const build = {
   scenario: (from) => new Predictor(from),
   pointing: (from) => new Predictor(from),
   pointer: ({ targets, options }) => new Predictor(pointerScenario(targets, options)),
+  ray: ({ targets, options }) => new Predictor(rayScenario(targets, options)),
+  hand: ({ targets, options }) => new Predictor(handScenario(targets, options)),
   snapshot: (from) => Predictor.restore(from),
   sequence: (from) => new ConditionallyMarkovSequence(from),
   parameters: (from) => ConditionallyMarkovSequence.fromParameters(from),
@@ -234,7 +236,9 @@ for (const [what, use, code, path, message] of uses) {
 
 test("the places of snapshots and targets that are not there", () => {
   refuses(() => Predictor.restore(undefined), "bad-snapshot", "snapshot", "must be what snapshot() returned, got nothing");
-  refuses(() => pointerScenario(), "missing-key", "targets", 'missing key "targets"');
+  for (const scenario of [pointerScenario, rayScenario, handScenario]) {
+    refuses(() => scenario(), "missing-key", "targets", 'missing key "targets"');
+  }
 });
 
 test("a sequence that was freed", () => {

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import ts from "typescript";
-import { ConditionallyMarkovSequence, init, pointerScenario, Predictor } from "whither";
+import { ConditionallyMarkovSequence, handScenario, init, pointerScenario, Predictor, rayScenario } from "whither";
 import { changed, read } from "./support.mjs";
 
 await init();
@@ -13,6 +13,8 @@ const { bases } = read("errors.json");
 const scenario = { build: (from) => new Predictor(from), from: bases.scenario.from };
 const pointing = { ...scenario, from: bases.pointing.from };
 const pointer = { build: ({ targets, options }) => pointerScenario(targets, options), from: bases.pointer.from };
+const ray = { build: ({ targets, options }) => rayScenario(targets, options), from: bases.ray.from };
+const hand = { build: ({ targets, options }) => handScenario(targets, options), from: bases.hand.from };
 const sequence = { build: (from) => new ConditionallyMarkovSequence(from), from: bases.sequence.from };
 const given = { build: (from) => ConditionallyMarkovSequence.fromParameters(from), from: bases.parameters.from };
 
@@ -68,6 +70,10 @@ const objects = [
   ['NonNullable<Pointing["remaining"]>', { ...pointing, change: { "/pointing/remaining": remaining } }, "/pointing/remaining"],
   ["PointerTarget", pointer, "/targets/0"],
   ["PointerOptions", pointer, "/options"],
+  ["RayTarget", ray, "/targets/0"],
+  ["RayOptions", ray, "/options"],
+  ["HandTarget", hand, "/targets/0"],
+  ["HandOptions", hand, "/options"],
   ["SequenceParameters", sequence, ""],
   ["GivenSequence", given, ""],
   ['GivenSequence["boundary"]', given, "/boundary"],
@@ -79,6 +85,8 @@ const words = [
   ['Motion["type"]', "/motion/type"],
   ['Arrival["type"]', "/arrival/type"],
   ['NonNullable<Quadrature["rule"]>', "/quadrature/rule"],
+  ["AngleUnit", "/options/unit", ray],
+  ["LengthUnit", "/options/unit", hand],
 ];
 
 const source = readFileSync(new URL("../../src/error.rs", import.meta.url), "utf8");
@@ -137,9 +145,9 @@ objects.forEach(([type, where, pointer], i) => {
   });
 });
 
-words.forEach(([type, pointer], i) => {
+words.forEach(([type, pointer, where = scenario], i) => {
   test(`the words of ${type}`, () => {
-    assert.deepEqual(declared[objects.length + i], legal(scenario, { [pointer]: "?" }, /must be one of (.*), got/));
+    assert.deepEqual(declared[objects.length + i], legal(where, { [pointer]: "?" }, /must be one of (.*), got/));
   });
 });
 

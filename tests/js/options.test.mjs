@@ -3,7 +3,17 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as slim from "whither/slim";
 import * as pointing from "whither/pointing";
-import { ConditionallyMarkovSequence, init, initSync, pointerScenario, Predictor, WhitherError } from "whither";
+import {
+  ConditionallyMarkovSequence,
+  handScenario,
+  init,
+  initSync,
+  pointerScenario,
+  Predictor,
+  rayMap,
+  rayScenario,
+  WhitherError,
+} from "whither";
 import { fit } from "whither/study";
 import { small } from "./support.mjs";
 
@@ -43,6 +53,17 @@ const functions = {
   observe: { call: (options) => predictor.observe(++time, [1, 2], options), keys: ["noise"] },
   "observe with a missing axis": { call: (options) => predictor.observe(++time, [1, null], options), keys: ["noise"] },
   pointerScenario: { call: (options) => pointerScenario([target], options), keys: ["none"], prefix: "options." },
+  rayScenario: {
+    call: (options) => rayScenario([{ id: "a", azimuth: 1, elevation: 2, width: 3, height: 4 }], options),
+    keys: ["none", "noise", "unit"],
+    prefix: "options.",
+  },
+  handScenario: {
+    call: (options) => handScenario([target], options),
+    keys: ["none", "noise", "unit"],
+    prefix: "options.",
+  },
+  rayMap: { call: (options) => rayMap([0, 0, -1], options), keys: ["unit"], prefix: "options." },
   PointerPredictor: {
     call: (options) => new pointing.PointerPredictor([target], options),
     keys: ["none", "constants"],

@@ -8,7 +8,9 @@ use crate::support::{change, predictor, read, value};
 use serde_json::{Value as Json, json};
 use whither::internals::Value;
 use whither::{ConditionallyMarkovSequence, Error, Predictor, Result, Scenario};
+use whither::{HandOptions, HandTarget, hand_scenario};
 use whither::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::{RayOptions, RayTarget, ray_scenario};
 
 const METHODS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
@@ -107,6 +109,32 @@ fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
             let targets: Vec<PointerTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
             let options = PointerOptions { none: from["options"]["none"].as_f64().unwrap() };
             Box::new(Predictor::new(&pointer_scenario(&targets, options)?))
+        }
+        "ray" => {
+            let target = |target: &Json| RayTarget {
+                id: target["id"].as_str().unwrap().to_owned(),
+                azimuth: target["azimuth"].as_f64().unwrap(),
+                elevation: target["elevation"].as_f64().unwrap(),
+                width: target["width"].as_f64().unwrap(),
+                height: target["height"].as_f64().unwrap(),
+            };
+            let targets: Vec<RayTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
+            let none = from["options"]["none"].as_f64().unwrap();
+            Box::new(Predictor::new(&ray_scenario(&targets, RayOptions { none, ..RayOptions::default() })?))
+        }
+        "hand" => {
+            let target = |target: &Json| HandTarget {
+                id: target["id"].as_str().unwrap().to_owned(),
+                x: target["x"].as_f64().unwrap(),
+                y: target["y"].as_f64().unwrap(),
+                z: target["z"].as_f64().unwrap(),
+                width: target["width"].as_f64().unwrap(),
+                height: target["height"].as_f64().unwrap(),
+                depth: target["depth"].as_f64().unwrap(),
+            };
+            let targets: Vec<HandTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
+            let none = from["options"]["none"].as_f64().unwrap();
+            Box::new(Predictor::new(&hand_scenario(&targets, HandOptions { none, ..HandOptions::default() })?))
         }
         other => panic!("no base {other}"),
     })

@@ -4,6 +4,7 @@
 mod batch;
 mod blocks;
 mod calibration;
+mod devices;
 mod documentation;
 mod errata;
 mod errors;

@@ -7,6 +7,7 @@ import { project, strict, write } from "./support.mjs";
 
 const program = `
 import { init, initSync, pointerScenario, Predictor, WhitherError, type Scenario } from "whither";
+import { handScenario, rayMap, rayScenario, type AngleUnit, type HandTarget, type RayTarget } from "whither";
 import { init as initSlim } from "whither/slim";
 import * as pointing from "whither/pointing";
 import { fit, type Track } from "whither/study";
@@ -41,6 +42,18 @@ export async function use(bytes: ArrayBuffer): Promise<string> {
 }
 
 new Predictor(pointerScenario([{ id: "radio", x: 1, y: 2, width: 3, height: 4 }]));
+
+export function turn(targets: readonly RayTarget[], unit: AngleUnit, matrix: Float32Array): Scenario {
+  const place: (direction: Float32Array | readonly number[]) => [number, number] = rayMap([0, 0, -1], { unit });
+  const [azimuth, elevation] = place(matrix.subarray(8, 11));
+  return rayScenario([...targets, { id: "here", azimuth, elevation, width: 1, height: 1 }], { unit, none: 0.1, noise: 0.01 });
+}
+const icons: HandTarget[] = [{ id: "radio", x: 1, y: 2, width: 3, height: 4 }, { id: "map", x: 1, y: 2, z: 3, width: 4, height: 5, depth: 6 }];
+new Predictor(handScenario(icons, { unit: "metres" }));
+// @ts-expect-error: rays have angles
+rayScenario(icons);
+// @ts-expect-error: there is no such unit
+handScenario(icons, { unit: "inches" });
 
 export async function point(options: pointing.InitOptions): Promise<number> {
   await pointing.init(options);

@@ -5,7 +5,7 @@ use crate::support::{golden, numbers, predictor, read, rows, scenario_of, sequen
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
 use whither::internals::DEFAULT_TOLERANCE;
-use whither::wasm::{Engine, SequenceEngine, WhitherError, pointer_scenario};
+use whither::wasm::{Engine, SequenceEngine, WhitherError, device_scenario};
 use whither::{Gaussian, Predictor};
 
 fn good<T>(result: Result<T>) -> T {
@@ -111,7 +111,7 @@ fn a_snapshot_and_a_copy_go_on_to_the_bit() {
 fn the_pointer_scenario_is_a_scenario() {
     globals();
     let given = &read("errors.json")["bases"]["pointer"]["from"];
-    let scenario = good(pointer_scenario(&plain(given)));
+    let scenario = good(device_scenario(0, &plain(given)));
     let mut engine = good(Engine::new(&scenario));
     assert_eq!(engine.ids(), ["a", "b"]);
     assert_eq!(engine.none(), given["options"]["none"]);

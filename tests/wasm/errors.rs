@@ -4,7 +4,7 @@ use crate::node::{Result, globals, json, parts, plain};
 use crate::support::{change, read};
 use serde_json::{Value as Json, json};
 use wasm_bindgen_test::wasm_bindgen_test;
-use whither::wasm::{Engine, SequenceEngine, pointer_scenario};
+use whither::wasm::{Engine, SequenceEngine, device_scenario};
 
 enum Subject {
     Predictor(Engine),
@@ -17,7 +17,9 @@ impl Subject {
         Ok(match base {
             "scenario" | "pointing" => Self::Predictor(Engine::new(given)?),
             "snapshot" => Self::Predictor(Engine::restore(given)?),
-            "pointer" => Self::Predictor(Engine::new(&pointer_scenario(given)?)?),
+            "pointer" => Self::Predictor(Engine::new(&device_scenario(0, given)?)?),
+            "ray" => Self::Predictor(Engine::new(&device_scenario(1, given)?)?),
+            "hand" => Self::Predictor(Engine::new(&device_scenario(2, given)?)?),
             "sequence" => Self::Sequence(SequenceEngine::new(given)?),
             "parameters" => Self::Sequence(SequenceEngine::from_parameters(given)?),
             other => panic!("no base {other}"),

@@ -1,13 +1,14 @@
-//! A scenario for pointers on a screen, mouse or touch, with defaults that were measured on recorded movements.
+//! Scenarios for what people point with, with constants that were measured on recorded movements: here pointers on a screen, mouse or
+//! touch.
+
+pub(crate) mod device;
+pub mod hand;
+pub mod ray;
 
 use crate::error::Result;
 use crate::model::destination::Destination;
-use crate::model::initial::Initial;
-use crate::model::motion::Motion;
-use crate::model::observation::Observation;
-use crate::pointing::defaults::OBSERVATION_NOISE;
-use crate::pointing::parameters::PointingConstants;
 use crate::scenario::Scenario;
+use device::{Choices, POINTER};
 
 /// A target on the screen: an icon, a button, a link.
 ///
@@ -66,19 +67,8 @@ impl Default for PointerOptions {
 /// assert_eq!(predictor.best().unwrap().id, "map");
 /// ```
 pub fn pointer_scenario(targets: &[PointerTarget], options: PointerOptions) -> Result<Scenario> {
-    let constants = PointingConstants::default();
-    let [first_speed, ..] = constants.first_speed;
-    let motion = Motion::ConstantVelocity {
-        dimensions: 2,
-        noise: constants.filter_noise.into(),
-        speed_noise: Some(constants.speed_noise),
-    };
-    let destination =
-        |target: &PointerTarget| Destination::new(&target.id, [target.x, target.y]).size([target.width, target.height]);
-    Scenario::builder(motion, Observation::deviation(OBSERVATION_NOISE))
-        .initial(Initial::velocity(first_speed))
-        .pointing(constants)
-        .none(options.none)
-        .destinations(targets.iter().map(destination))
-        .build()
+    let destinations = targets
+        .iter()
+        .map(|PointerTarget { id, x, y, width, height }| Destination::new(id, [*x, *y]).size([*width, *height]));
+    POINTER.scenario(&Choices { none: options.none, ..Choices::default() }, destinations.collect())
 }
