@@ -47,12 +47,15 @@ pub fn run(
 ) -> Result<Extras, String> {
     let message = |error: whither::Error| error.to_string();
     let mut results = Extras::default();
+    let coordinates = template.coordinates(track)?;
+    let track = coordinates.as_ref();
     let samples = &track.samples[..approach];
     let end = samples[approach - 1].time;
     let scenario = track_scenario(track, &template.scenario, &template.extra).map_err(message)?;
     let mut predictor = Predictor::new(&scenario);
     predictor.set_learnt(*learnt).map_err(message)?;
-    for sample in &samples[..approach - 1] {
+    let until_the_entry = if track.approach().is_some() { approach - 1 } else { 0 };
+    for sample in &samples[..until_the_entry] {
         sample.observe(&mut predictor).map_err(message)?;
         let Some(remaining) = predictor.remaining() else { continue };
         let true_time = end - sample.time;

@@ -13,6 +13,7 @@ mod habits;
 mod intents;
 mod learning;
 mod methods;
+mod on_a_map;
 mod outcomes;
 mod peers;
 mod reading;
@@ -55,9 +56,11 @@ struct Arguments {
     /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z]. A coordinate that is missing is null.
     #[arg(required_unless_present = "habits")]
     files: Vec<PathBuf>,
-    /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?}: the scenario without its destinations,
-    /// keys that each of them gets, and what is added to their sizes where it is the track file's own. Where
-    /// tools/evaluate/scenarios has one of the same name as a track file, it is used.
+    /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?, "toTheEnd"?, "map"?}: the scenario without its
+    /// destinations, or the name of a function that makes one ("rayScenario"); keys that each of them gets; where it is the track
+    /// file's own, what is added to their sizes, and whether tracks that never enter their target count to their last sample; and
+    /// whether azimuth and elevation in degrees are put on a map about the targets. Where tools/evaluate/scenarios has one of the same
+    /// name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
     /// Score the first of our scenarios on two more things: the time to the entry, and "none of them" with the target taken out of
@@ -85,6 +88,9 @@ struct Arguments {
     /// Only every n-th sample.
     #[arg(long, default_value_t = 1)]
     every: usize,
+    /// Instead of the recorded targets the true one and twelve others, LOW to HIGH times as far from the start of the movement.
+    #[arg(long, value_names = ["LOW", "HIGH"], num_args = 2, conflicts_with_all = ["sweep", "fit", "habits", "intents"])]
+    around: Option<Vec<f64>>,
     /// A table of other circumstances instead: few and many targets, small and wide ones, other sample rates and pixels.
     #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with_all = ["fit", "habits"])]
     sweep: bool,
@@ -240,7 +246,7 @@ fn evaluate(
     let also = [more.is_some(), crossings.is_some()].map(|wanted| wanted.then_some(&template));
     let skipped = reading::each(
         file,
-        |line| score(line, (margin, arguments.every), methods, also),
+        |line| score(line, (margin, arguments, template.to_the_end), methods, also),
         |(part, user, scores, extras, crossing)| {
             report::add(&mut sets, &name, part, methods, &user, &scores);
             if let (Some(sums), Some(extras)) = (more.as_deref_mut(), extras) {
@@ -259,12 +265,20 @@ type Scored = (&'static str, String, Vec<Option<Score>>, Option<Extras>, Option<
 
 fn score(
     line: &reading::Line,
-    (margin, every): (f64, usize),
+    (margin, arguments, to_the_end): (f64, &Arguments, bool),
     methods: &[Method],
     [more, thresholds]: [Option<&Template>; 2],
 ) -> Result<Option<Scored>, String> {
-    let recorded = line.track(margin)?;
-    let Some((track, approach)) = Variant::Every(every).of(&recorded, 0) else { return Ok(None) };
+    let (mut recorded, every) = (line.track(margin)?, arguments.every);
+    if let Some([low, high]) = arguments.around.as_deref() {
+        let Some((other, _)) = Variant::Around([*low, *high]).of(&recorded, line.number as u64) else {
+            return Ok(None);
+        };
+        recorded = other;
+    }
+    let variant =
+        if to_the_end && recorded.approach().is_none() { Variant::Complete(every) } else { Variant::Every(every) };
+    let Some((track, approach)) = variant.of(&recorded, 0) else { return Ok(None) };
     let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
     let extras =
         more.map(|template| extras::run(template, &track, approach, line.number, &Learnt::default())).transpose()?;

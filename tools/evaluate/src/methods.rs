@@ -1,12 +1,15 @@
 //! What is compared: scenarios of ours, and other predictors.
 
 use crate::foresight::Foresight;
+use crate::on_a_map;
 use crate::peers::Peer;
+use std::borrow::Cow;
 use std::path::Path;
-use whither::internals::{Value, track_scenario};
+use whither::internals::{Node, Value, data, track_scenario};
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
-use whither::{PointerOptions, PointerTarget, pointer_scenario};
+use whither::{HandOptions, HandTarget, PointerOptions, PointerTarget, RayOptions, RayTarget};
+use whither::{Scenario, hand_scenario, pointer_scenario, ray_scenario};
 
 /// One row of the tables.
 #[derive(Debug)]
@@ -18,7 +21,7 @@ pub struct Method {
 
 #[derive(Debug)]
 enum Rule {
-    Ours { scenario: Value, extra: Value },
+    Ours(Template),
     Peer(Peer),
     Foresight(Foresight),
 }
@@ -33,6 +36,10 @@ pub struct Template {
     pub extra: Value,
     /// Added to the size of every target, for a cursor that has a size itself.
     pub margin: f64,
+    /// Whether tracks that never enter their target count, to their last sample: recorded without a press.
+    pub to_the_end: bool,
+    /// Whether azimuth and elevation are places on a map about the middle of the targets.
+    map: bool,
 }
 
 impl Template {
@@ -43,7 +50,7 @@ impl Template {
         own.map(|path| Self::read(&path)).transpose()
     }
 
-    /// Reads `{ "name", "scenario", "destination"?, "margin"? }`.
+    /// Reads `{ "name", "scenario", "destination"?, "margin"?, "toTheEnd"?, "map"? }`.
     pub fn read(path: &Path) -> Result<Self, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Self::parse(&text).map_err(|error| format!("{}: {error}", path.display()))
@@ -51,30 +58,39 @@ impl Template {
 
     fn parse(text: &str) -> Result<Self, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        let node = whither::internals::Node::root(&value, "");
-        let fields = node.fields(&["name", "scenario", "destination", "margin"]).map_err(|error| error.to_string())?;
-        let required = |key: &'static str| fields.required(key).map_err(|error| error.to_string());
+        Self::from_value(&value).map_err(|error| error.to_string())
+    }
+
+    fn from_value(value: &Value) -> whither::Result<Self> {
+        let node = Node::root(value, "");
+        let fields = node.fields(&["name", "scenario", "destination", "margin", "toTheEnd", "map"])?;
+        let scenario = fields.required("scenario")?;
+        let scenario = match scenario.value() {
+            Value::Text(_) => {
+                let device = scenario.word(&[("pointerScenario", 0), ("rayScenario", 1), ("handScenario", 2)])?;
+                data(&[pointer, ray, hand][device]()?)
+            }
+            given => given.clone(),
+        };
+        let is_set = |key| fields.optional(key).is_some_and(|node| *node.value() == Value::Bool(true));
         Ok(Self {
-            name: required("name")?.text().map_err(|error| error.to_string())?.to_owned(),
-            scenario: required("scenario")?.value().clone(),
+            name: fields.required("name")?.text()?.to_owned(),
+            scenario,
             extra: fields.optional("destination").map_or(Value::Null, |extra| extra.value().clone()),
-            margin: fields
-                .optional("margin")
-                .map_or(Ok(0.0), |node| node.number())
-                .map_err(|error| error.to_string())?,
+            margin: fields.optional("margin").map_or(Ok(0.0), |node| node.number())?,
+            to_the_end: is_set("toTheEnd"),
+            map: is_set("map"),
         })
     }
 
     /// The scenario of `pointerScenario`.
     pub fn pointer() -> Result<Self, String> {
-        let any = PointerTarget { id: "any".to_owned(), x: 0.0, y: 0.0, width: 1.0, height: 1.0 };
-        let scenario = pointer_scenario(&[any], PointerOptions::default()).map_err(|error| error.to_string())?;
-        Ok(Self {
-            name: "whither, pointing model".to_owned(),
-            scenario: whither::internals::data(&scenario),
-            extra: Value::Null,
-            margin: 0.0,
-        })
+        Self::parse(r#"{ "name": "whither, pointing model", "scenario": "pointerScenario" }"#)
+    }
+
+    /// The track as this scenario has it.
+    pub fn coordinates<'a>(&self, track: &'a Track) -> Result<Cow<'a, Track>, String> {
+        if self.map { on_a_map::track(track).map(Cow::Owned) } else { Ok(Cow::Borrowed(track)) }
     }
 
     /// The papers' exact method with constant velocity, as a pointer's user would set it.
@@ -83,10 +99,29 @@ impl Template {
     }
 }
 
+fn any() -> String {
+    "any".to_owned()
+}
+
+fn pointer() -> whither::Result<Scenario> {
+    let any = PointerTarget { id: any(), x: 0.0, y: 0.0, width: 1.0, height: 1.0 };
+    pointer_scenario(&[any], PointerOptions::default())
+}
+
+fn ray() -> whither::Result<Scenario> {
+    let any = RayTarget { id: any(), azimuth: 0.0, elevation: 0.0, width: 1.0, height: 1.0 };
+    ray_scenario(&[any], RayOptions::default())
+}
+
+fn hand() -> whither::Result<Scenario> {
+    let any = HandTarget { id: any(), x: 0.0, y: 0.0, z: 0.0, width: 1.0, height: 1.0, depth: 1.0 };
+    hand_scenario(&[any], HandOptions::default())
+}
+
 impl Method {
     /// A scenario of ours.
     pub fn ours(template: Template) -> Self {
-        Self { name: template.name, rule: Rule::Ours { scenario: template.scenario, extra: template.extra } }
+        Self { name: template.name.clone(), rule: Rule::Ours(template) }
     }
 
     /// Another predictor's rule.
@@ -107,8 +142,11 @@ impl Method {
     /// Scores one track; none where the method does not apply to such tracks.
     pub fn score(&self, track: &Track, approach: usize) -> Result<Option<Score>, String> {
         let tops = match &self.rule {
-            Rule::Ours { scenario, extra } => {
-                let scenario = track_scenario(track, scenario, extra).map_err(|error| error.to_string())?;
+            Rule::Ours(template) => {
+                let coordinates = template.coordinates(track)?;
+                let track = coordinates.as_ref();
+                let scenario =
+                    track_scenario(track, &template.scenario, &template.extra).map_err(|error| error.to_string())?;
                 return Score::of_scenario(track, approach, &scenario).map(Some).map_err(|error| error.to_string());
             }
             Rule::Peer(peer) if peer.applies(track) => peer.tops(track, approach),

@@ -13,6 +13,9 @@ pub enum Variant {
     /// one's size anywhere in the smallest rectangle that holds the recorded targets and samples, free of the others if 100
     /// tries find such a place.
     Targets(usize),
+    /// The true target and twelve of its size anywhere in the plane of the recorded ones about the start of the movement, free of each
+    /// other, between so many and so many times as far from the start as the true one.
+    Around([f64; 2]),
     /// All targets of this width and height, where they are.
     Size([f64; 2]),
     /// A list: rows of this width and height one under the other, as many as there were targets. The true one keeps its
@@ -22,6 +25,8 @@ pub enum Variant {
     Mixed,
     /// Every n-th sample, and the entry.
     Every(usize),
+    /// Every n-th sample of a track that never enters its target, to its end.
+    Complete(usize),
     /// So many samples a second: a Catmull-Rom spline through the recorded ones, rounded to units of length.
     Rate(f64),
     /// All lengths times this.
@@ -52,11 +57,13 @@ impl Variant {
         match self {
             Self::Recorded => "as recorded".to_owned(),
             Self::Targets(count) => format!("{count} targets"),
+            Self::Around([low, high]) => format!("12 others {low} to {high} times as far"),
             Self::Size([width, height]) => format!("{width} x {height}, in place"),
             Self::List([width, height]) => format!("a list of {width} x {height}"),
             Self::Mixed => "mixed sizes".to_owned(),
             Self::Every(2) => "every second sample".to_owned(),
             Self::Every(step) => format!("every {step}th sample"),
+            Self::Complete(_) => "to its end".to_owned(),
             Self::Rate(rate) => format!("{} kHz", rate / 1000.0),
             Self::Scale(scale) => format!("pixels x{scale}"),
         }
@@ -69,6 +76,7 @@ impl Variant {
         match self {
             Self::Recorded => {}
             Self::Targets(count) => choose(&mut track, count, &mut random),
+            Self::Around(range) => around(&mut track, range, &mut random),
             Self::Size(size) => track.targets.iter_mut().for_each(|target| target.size = size.to_vec()),
             Self::List(size) => list(&mut track, size, &mut random),
             Self::Mixed => {
@@ -79,6 +87,11 @@ impl Variant {
                 let last = track.approach()? - 1;
                 let entry = track.samples[last].clone();
                 track.samples = track.samples[..last].iter().step_by(step).cloned().chain([entry]).collect();
+                let length = track.samples.len();
+                return Some((track, length));
+            }
+            Self::Complete(step) => {
+                track.samples = track.samples.iter().step_by(step).cloned().collect();
                 let length = track.samples.len();
                 return Some((track, length));
             }
@@ -132,6 +145,34 @@ fn choose(track: &mut Track, count: usize, random: &mut Random) {
     track.target = below(random, count);
     others.insert(track.target, truth);
     track.targets = others;
+}
+
+fn around(track: &mut Track, [low, high]: [f64; 2], random: &mut Random) {
+    let width = |j: usize| {
+        let centers = track.targets.iter().map(|target| target.center[j]);
+        centers.clone().fold(f64::MIN, f64::max) - centers.fold(f64::MAX, f64::min)
+    };
+    let mut axes: Vec<usize> = (0..track.dimensions()).collect();
+    axes.sort_by(|a, b| width(*b).total_cmp(&width(*a)));
+    let truth = track.targets.swap_remove(track.target);
+    let start = &track.samples[0].position;
+    let offsets = truth.center.iter().zip(start).map(|(a, b)| (a - b).powi(2));
+    let far = offsets.sum::<f64>().sqrt();
+    let mut targets = vec![truth.clone()];
+    while targets.len() < 13 {
+        let mut place = truth.clone();
+        for _ in 0..100 {
+            let (way, angle) =
+                (far * (low + (high - low) * random.uniform()), std::f64::consts::TAU * random.uniform());
+            let (y, x) = angle.sin_cos();
+            axes.iter().zip([x, y]).for_each(|(&axis, share)| place.center[axis] = start[axis] + way * share);
+            if targets.iter().all(|other| !overlap(other, &place)) {
+                break;
+            }
+        }
+        targets.push(place);
+    }
+    (track.target, track.targets) = (0, targets);
 }
 
 fn overlap(one: &Target, two: &Target) -> bool {
@@ -214,6 +255,16 @@ mod tests {
         let places = |seed| Variant::Targets(9).of(&track(), seed).unwrap().0;
         assert_eq!(places(3), places(3));
         assert_ne!(places(3), places(4));
+    }
+
+    #[test]
+    fn others_lie_around_the_start_as_far_as_is_stated() {
+        let (changed, approach) = Variant::Around([0.5, 2.0]).of(&track(), 3).unwrap();
+        assert_eq!((changed.targets.len(), changed.target, approach), (13, 0, 5));
+        assert_eq!(changed.targets[0], track().targets[2]);
+        let far = |target: &Target| (target.center[0] - 150.0).hypot(target.center[1]);
+        let truth = far(&changed.targets[0]);
+        assert!(changed.targets.iter().all(|target| (0.5..=2.0).contains(&(far(target) / truth))));
     }
 
     #[test]
