@@ -74,12 +74,13 @@ impl Device {
     pub fn scenario(&self, choices: &Choices, destinations: Vec<Destination>) -> Result<Scenario> {
         let (dimensions, unit) = (self.dimensions(), choices.unit);
         let mut constants = (self.constants)();
-        let PointingConstants { first_speed: [speed, ..], start, direction, scales, .. } = &mut constants;
-        let (lengths, noises) = ([&mut start.core, &mut start.reach, &mut direction.distance, speed], scales);
-        lengths.into_iter().chain(noises).for_each(|length| *length *= unit);
-        for length in [&mut constants.filter_noise, &mut constants.rest_distance, &mut constants.unit] {
-            *length *= unit;
-        }
+        constants.scales.iter_mut().for_each(|scale| *scale *= unit);
+        constants.filter_noise *= unit;
+        constants.start.core *= unit;
+        constants.start.reach *= unit;
+        constants.direction.distance *= unit;
+        constants.rest_distance *= unit;
+        constants.unit *= unit;
         if let Some(remaining) = &mut constants.remaining {
             remaining.distance *= unit;
         }
@@ -89,7 +90,7 @@ impl Device {
             speed_noise: Some(constants.speed_noise),
         };
         Scenario::builder(motion, Observation::deviation(choices.noise.unwrap_or(self.noise * unit)))
-            .initial(Initial::velocity(constants.first_speed[0]))
+            .initial(Initial::velocity(constants.first_speed[0] * unit))
             .pointing(constants)
             .none(choices.none)
             .destinations(destinations)

@@ -89,9 +89,9 @@ const OTHERS: [[i32; 2]; 37] = [
     [656, 1_500],
     [2_000, 10_000],
     // none: gain, offset, share; calibrated with the true target taken out of half of the movements
-    [4_200, 2_100],
-    [-1_500, -670],
-    [200, 100],
+    [5_500, 2_500],
+    [-4_000, -5_000],
+    [200, 300],
     // uniform share, unit
     [1, 5],
     [100, 500],
@@ -109,42 +109,37 @@ impl PointingConstants {
     /// The constants of a device at one of the places of [`OTHERS`].
     #[must_use]
     pub(crate) fn of(device: usize) -> Self {
-        let mut numbers = OTHERS.iter().map(|row| f64::from(row[device]) / 1000.0);
-        let mut next = || numbers.next().unwrap_or_default();
+        let mut numbers = [0.0; OTHERS.len()];
+        numbers.iter_mut().zip(&OTHERS).for_each(|(number, row)| *number = f64::from(row[device]) / 1000.0);
+        let [filter_noise, speed_noise, speed, steady, turning, along_noise, across_noise, others @ ..] = numbers;
+        let [from, to, median, spread, speed_exponent, exponent, core, reach, others @ ..] = others;
+        let time_to_go = TimeToGo { from, to, points: 7, median, spread, speed_exponent };
+        let start = Start { exponent, core, reach };
+        let [power, core, wide, distance, time, others @ ..] = others;
+        let direction = Direction { power, core, wide, distance, time };
+        let [from, to, time, near, rest_distance, none_gain, none_offset, none_share, uniform, unit, others @ ..] =
+            others;
+        let power = Power { from, to, time };
+        let [offset, nodes, nearness, distance, elapsed, low, high] = others;
         Self {
-            filter_noise: next(),
-            speed_noise: next(),
-            first_speed: [next(); 3],
-            scales: vec![next(), next()],
-            along_noise: next(),
-            across_noise: next(),
-            time_to_go: TimeToGo {
-                points: 7,
-                from: next(),
-                to: next(),
-                median: next(),
-                spread: next(),
-                speed_exponent: next(),
-            },
-            start: Start { exponent: next(), core: next(), reach: next() },
-            direction: Direction { power: next(), core: next(), wide: next(), distance: next(), time: next() },
-            power: Power { from: next(), to: next(), time: next() },
-            near: next(),
-            rest_distance: next(),
-            none_gain: next(),
-            none_offset: next(),
-            none_share: next(),
-            uniform: next(),
-            unit: next(),
-            remaining: Some(EntryTime {
-                offset: next(),
-                nodes: next(),
-                near: next(),
-                distance: next(),
-                elapsed: next(),
-                low: next(),
-                high: next(),
-            }),
+            filter_noise,
+            speed_noise,
+            first_speed: [speed; 3],
+            scales: vec![steady, turning],
+            along_noise,
+            across_noise,
+            time_to_go,
+            start,
+            direction,
+            power,
+            near,
+            rest_distance,
+            none_gain,
+            none_offset,
+            none_share,
+            uniform,
+            unit,
+            remaining: Some(EntryTime { offset, nodes, near: nearness, distance, elapsed, low, high }),
         }
     }
 }
