@@ -289,7 +289,7 @@ export interface BoxDestination extends DestinationBase {
 /** Where the object may be going. */
 export type Destination = GaussianDestination | BoxDestination;
 
-/** The constants of the method `pointing`, in pixels (or another unit of length, see `unit`) and seconds. */
+/** The constants of the method `pointing`, in pixels, or the length that `unit` states, and seconds. */
 export interface Pointing {
   /** Noise scales of the way to go, each with the same weight, in px/s^1.5. */
   readonly noise: Vector;
