@@ -79,18 +79,22 @@ fn of_user(template: &Template, tracks: &[(usize, Track)], every: usize, more: b
     let mut learnt = Learnt::default();
     let mut gain = Gain::default();
     for (number, track) in tracks {
-        let Some((track, approach)) = Variant::Every(every).of(track, 0) else { continue };
-        let scenario = track_scenario(&track, &scenario, &template.extra).map_err(message)?;
+        let to_the_end = template.to_the_end && track.approach().is_none();
+        let variant = if to_the_end { Variant::Complete(every) } else { Variant::Every(every) };
+        let Some((recorded, approach)) = variant.of(track, 0) else { continue };
+        let coordinates = template.coordinates(&recorded)?;
+        let track = coordinates.as_ref();
+        let scenario = track_scenario(track, &scenario, &template.extra).map_err(message)?;
         for (k, known) in [Learnt::default(), learnt].into_iter().enumerate() {
             let mut predictor = Predictor::new(&scenario);
             predictor.set_learnt(known).map_err(message)?;
-            let score = Score::of_predictor(&track, approach, &mut predictor).map_err(message)?;
+            let score = Score::of_predictor(track, approach, &mut predictor).map_err(message)?;
             gain.all[k].add(&score);
             if gain.all[k].tracks <= FIRST as f64 {
                 gain.first[k].add(&score);
             }
             if more {
-                gain.more[k].add(&extras::run(template, &track, approach, *number, &known)?);
+                gain.more[k].add(&extras::run(template, &recorded, approach, *number, &known)?);
             }
             // what follows the entry, up to the press
             for sample in &track.samples[approach..] {
