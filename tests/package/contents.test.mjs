@@ -120,8 +120,9 @@ test("the package", async (t) => {
       assert.ok(instructions > 0, "no SIMD instruction: was simd128 lost?");
     });
 
-    await t.test(`has no path of the machine that built ${file}`, () => {
+    await t.test(`has no path of the machine that built ${file}, and none of a source file`, () => {
       const text = read(`dist/${file}`).toString("latin1");
+      assert.doesNotMatch(text, /\w\.rs\b/);
       for (const path of [root, join(homedir(), ".cargo")]) assert.ok(!text.includes(path), path);
     });
   }
