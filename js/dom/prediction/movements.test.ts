@@ -65,6 +65,27 @@ describe("segmenter", () => {
     );
   });
 
+  it("passes over what a busy page is given late, in the midst of a movement", () => {
+    const late = THERE.flatMap((sample, step) => (step % 10 === 9 ? [sample, { ...sample, time: sample.time - 0.15 }] : sample));
+    assert.equal(movements(late.filter(({ time }) => time >= 0)), 1);
+  });
+
+  it("gives samples that were held up and come a millisecond apart one time", () => {
+    const bunches = [0.1, 0.2].flatMap((time) => [0, 1, 2, 3].map((k) => at(time + 0.001 * k, 1000 * time + 20 * k)));
+    const times = feed(new Segmenter(), [at(0, 0), ...bunches]).flatMap(({ samples }) => samples.map(({ time }) => time));
+    assert.deepEqual(times, [0, ...Array(4).fill(0.1), ...Array(4).fill(0.2)]);
+  });
+
+  it("leaves the times of a mouse of 1 kHz as they are, but for the first of them after a silence", () => {
+    const quick = steady({ start: 1, seconds: 0.2, speed: 1000, rate: 1000 });
+    const times = feed(new Segmenter(), [at(0, -40), ...quick]).flatMap(({ samples }) => samples.map(({ time }) => time));
+    assert.deepEqual(
+      times.slice(-150),
+      quick.slice(-150).map(({ time }) => time),
+    );
+    assert.ok(new Set(times).size > 185, `${new Set(times).size}`);
+  });
+
   it("ends a movement at a rest that is longer than the option's, and at none that is shorter", () => {
     for (const [rest, count] of [
       [0.12, 1],

@@ -30,7 +30,17 @@ const LOST = 1;
  * A sample this much earlier than the last one was heard late, and is passed over; an even earlier one is on a clock that was
  * set back, where no time before it means anything (seconds).
  */
-const LATE = 0.1;
+const LATE = 0.5;
+
+/**
+ * Samples that follow one another within this time, after a silence that is long against it, were held up together, by a radio or a busy
+ * driver, and stamped as they came: no pointer moved so fast. They have one time, and the last of them is where it was (seconds).
+ */
+const BUNCHED = 0.002;
+const SILENCE = 8;
+
+/** No bunch lasts longer (seconds): a mouse of 1 kHz goes on. */
+const LONGEST_BUNCH = 0.01;
 
 /** So much of what was heard before a departure is its onset (seconds). */
 const ONSET = 0.12;
@@ -53,6 +63,10 @@ const NOTHING: Cut = { samples: [], fresh: false };
 export class Segmenter {
   #moving = false;
   #last: Sample | null = null;
+  /** When the last sample and the one before it were heard, and the time that samples of their bunch have. */
+  #heard = -Infinity;
+  #before = -Infinity;
+  #bunch = -Infinity;
   /** While moving: where the pointer last left the tremor's circle. While resting: where it rests. */
   #reference: Sample | null = null;
   /** While resting: what was heard since the rest, in case it turns out to be the onset. */
@@ -64,8 +78,9 @@ export class Segmenter {
   }
 
   /** Takes a sample; `rest` is how long a pointer that has ended its movement stays put, in seconds. */
-  add(sample: Sample, rest: number): Cut {
+  add(heard: Sample, rest: number): Cut {
     const last = this.#last;
+    const sample = this.#timed(heard);
     if (last && repeats(sample, last)) return NOTHING;
     this.#last = sample;
     if (last && sample.time < last.time) this.#rest(sample);
@@ -76,6 +91,18 @@ export class Segmenter {
   /** A press, a lost pointer: whatever comes next is a new movement. */
   end(): void {
     if (this.#last) this.#rest(this.#last);
+  }
+
+  /** The sample at the time of its bunch, where it is of one. */
+  #timed(sample: Sample): Sample {
+    const { time } = sample;
+    const step = time - this.#heard;
+    if (step <= 0 && step >= -LATE) return step < 0 ? sample : { ...sample, time: this.#bunch };
+    const begun = this.#bunch < this.#heard || this.#heard - this.#before >= SILENCE * step;
+    if (step > BUNCHED || step < 0 || !begun || time - this.#bunch > LONGEST_BUNCH) this.#bunch = time;
+    this.#before = this.#heard;
+    this.#heard = time;
+    return this.#bunch < time ? { ...sample, time: this.#bunch } : sample;
   }
 
   /** Whether the pointer rested until now: its displacement distinguishes a rest from an event that came late. */
