@@ -1,5 +1,5 @@
 import { WhitherError } from "#error";
-import { checkOptions } from "../core/options.js";
+import { fields, isAbsent } from "../core/read.js";
 import type { Scenario, Vector } from "../core/scenario.js";
 import { deviceScenario } from "./device.js";
 
@@ -76,7 +76,7 @@ export function rayMap(
   middle: Vector,
   options?: { readonly unit?: AngleUnit | undefined },
 ): (direction: Vector) => [right: number, up: number] {
-  checkOptions(options, ["unit"]);
+  if (!isAbsent(options)) fields(options, "options", ["unit"]);
   const unit = options?.unit ?? "degrees";
   const radian = unit === "degrees" ? 180 / Math.PI : 1;
   if (unit !== "degrees" && unit !== "radians")

@@ -66,7 +66,7 @@ const functions = {
   rayMap: { call: (options) => rayMap([0, 0, -1], options), keys: ["unit"], prefix: "options." },
   PointerPredictor: {
     call: (options) => new pointing.PointerPredictor([target], options),
-    keys: ["none", "constants"],
+    keys: ["none", "constants", "learning"],
     prefix: "options.",
   },
   sample: { call: (options) => sequence.sample(options), keys: ["seed", "count"], needs: { seed: 1, count: 1 } },

@@ -48,7 +48,7 @@ const isWrong = ({ base, code }) => base === "pointer" && code !== "no-destinati
 for (const { change, code, path, message } of rows.filter(isWrong)) {
   test(`as pointerScenario: ${JSON.stringify(change)}`, () => {
     const { targets, options } = changed(bases.pointer.from, change);
-    const keys = { "options.nothing": ', "constants"', "targets[0].z": ', "prior"' };
+    const keys = { "options.nothing": ', "constants", "learning"', "targets[0].z": ', "prior"' };
     const run = () => new pointing.PointerPredictor(targets, options);
     refuses(run, code, ofTargets(path), `${ofTargets(message)}${keys[path] ?? ""}`);
   });
