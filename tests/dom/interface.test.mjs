@@ -35,6 +35,7 @@ describe("watch", () => {
       assert.deepEqual(await page.evaluate(() => scriptedPredictor.options), {
         none: 0.25,
         constants: { motion: { noise: 700 } },
+        learning: false,
       });
       await page.evaluate(() => watcher.update({ none: 0.3 }));
       await step({});
