@@ -316,7 +316,7 @@ export class Predictor {
 
   /**
    * Records the selection: learnt from where the scenario has `learning`, without effect where it does not. What is learnt holds from
-   * now on, and {@link snapshot} keeps it: priors, and with the method `pointing` how far the model holds for the user ({@link learnt}).
+   * now on, and {@link snapshot} keeps it: priors, and with the method `pointing` how far the model holds for the user ({@link Predictor.learnt}).
    * For that the movement up to the last entry into the destination counts, once: a second choice before {@link reset} teaches priors
    * alone. Where something was chosen by other means than this movement, such as a key, reset before.
    *
@@ -346,7 +346,7 @@ export class Predictor {
    * Goes on with what was learnt before, or by another predictor; `{ confidence: 0.8 }` alone is enough. It holds at once, in
    * mid-movement too, with the method `pointing`; others have no use for it.
    *
-   * @param learnt - What {@link learnt} returned; null: a new user, what was learnt is forgotten. The counts of choices stay.
+   * @param learnt - What {@link Predictor.learnt} returned; null: a new user, what was learnt is forgotten. The counts of choices stay.
    * @throws {@link WhitherError} `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `unknown-key`.
    */
   setLearnt(learnt: Learnt | null): void {

@@ -208,7 +208,7 @@ export class PointerPredictor {
   }
 
   /**
-   * Records what was selected: with the option `learning` it teaches how far the model holds for the user ({@link learnt}), which holds
+   * Records what was selected: with the option `learning` it teaches how far the model holds for the user ({@link PointerPredictor.learnt}), which holds
    * from now on; without it has no effect. The movement up to the last entry into the target counts, once: a second choice before
    * {@link reset} teaches nothing. Where something was chosen by other means than this movement, such as a key, reset before.
    *
@@ -228,7 +228,7 @@ export class PointerPredictor {
    * Goes on with what was learnt before, or by another predictor; `{ confidence: 0.8 }` alone is enough. It holds at once, in
    * mid-movement too.
    *
-   * @param learnt - What {@link learnt} returned; null: a new user, what was learnt is forgotten.
+   * @param learnt - What {@link PointerPredictor.learnt} returned; null: a new user, what was learnt is forgotten.
    * @throws {@link WhitherError} `missing-key`, `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`, `unknown-key`.
    */
   setLearnt(learnt: Learnt | null): void {
