@@ -48,7 +48,8 @@ pub struct Predictor {
     pub(crate) destinations: Arc<Destinations>,
     pub(crate) movement: Option<Movement>,
     pub(crate) habits: Habits,
-    pub(crate) learnt: Learnt,
+    /// What was learnt of the user; none of a new one.
+    learnt: Option<Box<Learnt>>,
     posterior: Posterior,
     log_likelihoods: Vec<f64>,
     /// Whether the posterior is that of an earlier state.
@@ -72,7 +73,7 @@ impl Predictor {
             destinations,
             movement,
             habits: Habits::default(),
-            learnt: Learnt::default(),
+            learnt: None,
             posterior: Posterior::default(),
             log_likelihoods: Vec::new(),
             stale: true,
@@ -113,7 +114,7 @@ impl Predictor {
         let noise = noise.as_ref().unwrap_or_else(|| model.noise());
         let Some(movement) = &mut self.movement else {
             let mut movement = Movement::begin(&self.scenario, &self.destinations, time, position, noise)?;
-            movement.engine.apply(&self.learnt, self.scenario.learning.is_some());
+            movement.engine.apply(&self.learnt(), self.scenario.learning.is_some());
             self.movement = Some(movement);
             self.stale = true;
             return Ok(());
@@ -313,9 +314,11 @@ impl Predictor {
     pub fn chosen(&mut self, id: &str) -> Result<()> {
         let place = self.destinations.index_of(id)?;
         if let Some(learning) = &self.scenario.learning {
+            let mut learnt = self.learnt();
             if let Some(movement) = &mut self.movement {
-                movement.engine.learn(place, &mut self.learnt);
+                movement.engine.learn(place, &mut learnt);
             }
+            self.learnt = kept(learnt);
             self.habits.chosen(learning, id);
             self.apply_habits();
         }
@@ -324,8 +327,8 @@ impl Predictor {
 
     /// What the outcomes of movements have taught about the user, by [`Predictor::chosen`] or set by [`Predictor::set_learnt`].
     #[must_use]
-    pub const fn learnt(&self) -> Learnt {
-        self.learnt
+    pub fn learnt(&self) -> Learnt {
+        self.learnt.as_deref().copied().unwrap_or_default()
     }
 
     /// Goes on with what was learnt before, or by another predictor; with [`Learnt::default`] it is forgotten. The counts of choices
@@ -340,7 +343,7 @@ impl Predictor {
 
     /// The same for numbers that were checked before.
     pub(crate) fn apply_learnt(&mut self, learnt: Learnt) {
-        self.learnt = learnt;
+        self.learnt = kept(learnt);
         if let Some(movement) = &mut self.movement {
             movement.engine.apply(&learnt, false);
         }
@@ -368,6 +371,11 @@ impl Predictor {
         }
         self.stale = true;
     }
+}
+
+/// What was learnt of a user, none of a new one.
+fn kept(learnt: Learnt) -> Option<Box<Learnt>> {
+    (learnt != Learnt::default()).then(|| Box::new(learnt))
 }
 
 fn check_time(path: &str, time: f64) -> Result<()> {
