@@ -8,7 +8,8 @@ const TOGETHER: usize = 4;
 /// Room for terms at one block of places between the two halves of a sum, which is kept from step to step.
 ///
 /// The exponents and polynomials of all terms come first, then what makes powers of them and adds them up. In one loop a processor
-/// would wait for each term's chain of operations: those that do not depend on it lie too far ahead.
+/// seems to wait for each term's chain of operations, since those that do not depend on it lie too far ahead: that takes 5 to 10% longer
+/// with 10 000 places.
 #[derive(Clone, Debug, Default)]
 pub struct Powers(pub(super) [[Power; 2]; TOGETHER]);
 
