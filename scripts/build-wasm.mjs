@@ -119,7 +119,7 @@ async function bindgen(compiled, name) {
 /** Makes the file small, and gives what it is under gzip. */
 async function small(name) {
   const file = `${generated}/${name}_bg.wasm`;
-  trapPanics(join(root, file));
+  await trapPanics(join(root, file));
   const tool = "node_modules/binaryen/bin/wasm-opt";
   const enabled = instructions.map((set) => `--enable-${set}`);
   // Large functions with a single caller stay functions: inlined they compress worse, by 6%.

@@ -2,7 +2,6 @@
 // panic trap at once, and neither what their callers would pass to them nor the places in source files that they would name need
 // be in the file: 3% of it under gzip.
 import { readFileSync, writeFileSync } from "node:fs";
-import binaryen from "binaryen";
 
 /** None of them returns. The names are demangled, those of the standard library with a hash of its crates. */
 const PANICS = [
@@ -30,7 +29,8 @@ const FEATURES = [
 ];
 
 /** Rewrites a file of WebAssembly that has names, so that each of its panics is a trap. */
-export function trapPanics(file) {
+export async function trapPanics(file) {
+  const { default: binaryen } = await import("binaryen");
   const module = binaryen.readBinary(readFileSync(file));
   module.setFeatures(FEATURES.reduce((all, name) => all | binaryen.Features[name], 0));
   const found = new Set();

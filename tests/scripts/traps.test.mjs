@@ -32,7 +32,7 @@ function fileOf(t, text) {
 
 test("a panic traps at once, and nothing else does", async (t) => {
   const file = fileOf(t, MODULE);
-  trapPanics(file);
+  await trapPanics(file);
   const { instance } = await WebAssembly.instantiate(readFileSync(file));
   const { fail, panics, go } = instance.exports;
   assert.throws(fail, WebAssembly.RuntimeError);
@@ -41,7 +41,7 @@ test("a panic traps at once, and nothing else does", async (t) => {
 
 test("places in source files are cleared with the files' names, and all other data stays", async (t) => {
   const file = fileOf(t, MODULE);
-  trapPanics(file);
+  await trapPanics(file);
   const { instance } = await WebAssembly.instantiate(readFileSync(file));
   const bytes = Buffer.from(instance.exports.memory.buffer, 16, 40);
   assert.deepEqual([...bytes.subarray(0, 24)], Array(24).fill(0));
@@ -49,13 +49,14 @@ test("places in source files are cleared with the files' names, and all other da
   assert.deepEqual([bytes.readUInt32LE(32), bytes.readUInt32LE(36)], [16, 7]);
 });
 
-test("a module without panics or places, as another compiler names them, is an error and not a larger file", (t) => {
+test("a module without panics or places, as another compiler names them, is an error and not a larger file", async (t) => {
   const renamed = MODULE.replaceAll("core[c593]::panicking", "core::fails");
-  assert.throws(() => trapPanics(fileOf(t, renamed)), /no function of .*module\.wasm is called core::panicking::/);
-  assert.throws(() => trapPanics(fileOf(t, MODULE.replace("src/a.rs", "src/a.go"))), /no place in a source file was found/);
+  await assert.rejects(trapPanics(fileOf(t, renamed)), /no function of .*module\.wasm is called core::panicking::/);
+  const elsewhere = MODULE.replace("src/a.rs", "src/a.go");
+  await assert.rejects(trapPanics(fileOf(t, elsewhere)), /no place in a source file was found/);
   const returning = MODULE.replace("panicking::panic_fmt", "panicking::value")
     .replaceAll("panicking::panic_fmt", "panicking::value")
     .replace("(param i32) (global.set", "(param i32) (result i32) (i32.const 1) (global.set")
     .replace("(i32.const 24)))", "(i32.const 24)) drop)");
-  assert.throws(() => trapPanics(fileOf(t, returning)), /returns something/);
+  await assert.rejects(trapPanics(fileOf(t, returning)), /returns something/);
 });
