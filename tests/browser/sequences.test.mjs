@@ -5,7 +5,7 @@ import { launch, open, serve } from "./support.mjs";
 
 const SEQUENCES = {
   path: "sequences/index.html",
-  ready: () => document.querySelector("#kind").textContent !== "–" || document.documentElement.dataset.failed,
+  ready: () => (document.querySelector("#kind")?.textContent ?? "–") !== "–" || document.documentElement.dataset.failed,
 };
 
 /** The facts, after the next frame. */

@@ -34,7 +34,7 @@ export function hosted() {
 /** The car's screen: ready once it shows probabilities. */
 const SCREEN = {
   path: "",
-  ready: () => document.querySelector("#none").textContent !== "–" || document.documentElement.dataset.failed,
+  ready: () => (document.querySelector("#none")?.textContent ?? "–") !== "–" || document.documentElement.dataset.failed,
 };
 
 /** A page that is ready, with everything that it must not do collected in `problems`. */

@@ -172,9 +172,10 @@ describe("visibility", () => {
       await nextFrame(page);
       const meanwhile = (await page.evaluate(() => predictions)).slice(gone.since);
       const intents = await page.evaluate('intents.filter((id) => id === "target").length');
-      const [back] = await Promise.all([changed(page, change[1]), play(0.6, 0.8)]);
+      await Promise.all([changed(page, change[1]), play(0.6, 0.8)]);
+      await play(0.8, 0.9);
       await nextFrame(page);
-      const last = await page.evaluate(() => predictions.findLast(({ best }) => best !== null));
+      const later = (await page.evaluate(() => predictions)).slice(gone.since);
       await close();
 
       const { since, intents: earlier, ...then } = gone;
@@ -182,8 +183,7 @@ describe("visibility", () => {
       assert.ok(meanwhile.length > 0 || !rivals, `there are ${meanwhile.length} predictions meanwhile`);
       assert.ok(meanwhile.every(({ best, intended }) => best !== "target" && !intended.includes("target")));
       assert.equal(intents, earlier);
-      assert.ok(back.probability > 0, "it is back after two frames");
-      assert.equal(last.best, "target");
+      assert.equal(later.findLast(({ best }) => best !== null)?.best, "target", "it is back");
     });
   }
 
