@@ -30,6 +30,11 @@ pub use sequence::SequenceEngine;
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 use wasm_bindgen::prelude::wasm_bindgen;
 
+/// Small, and as sparing with memory as the default one.
+#[cfg(all(any(feature = "wasm", feature = "wasm-fit"), not(feature = "wasm-pointing"), target_family = "wasm"))]
+#[global_allocator]
+static ALLOCATOR: talc::wasm::WasmDynamicTalc = talc::wasm::new_wasm_dynamic_allocator();
+
 #[cfg(any(feature = "wasm", feature = "wasm-fit"))]
 type Result<T> = std::result::Result<T, WhitherError>;
 
