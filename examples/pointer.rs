@@ -7,7 +7,8 @@ fn main() -> whither::Result<()> {
     let icons = [("radio", 200.0, 200.0), ("map", 1000.0, 200.0), ("phone", 200.0, 600.0), ("seats", 1000.0, 600.0)];
     let targets = icons.map(|(id, x, y)| PointerTarget { id: id.to_owned(), x, y, width: 96.0, height: 96.0 });
     // 5% of the movements go to none of them
-    let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.05 })?);
+    let mut predictor =
+        Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.05, ..PointerOptions::default() })?);
 
     // from (600, 400) to the map in half a second, 60 positions a second
     for k in 0..=30 {

@@ -46,6 +46,9 @@ impl Observed<'_> {
     }
 }
 
+/// What of a movement outlasts it; zeros where nothing does.
+pub(crate) type Lasting = [f64; 7];
+
 /// An engine in the course of one movement.
 pub(crate) trait Engine: Send + Sync {
     /// Takes in one more observation.
@@ -91,6 +94,14 @@ pub(crate) trait Engine: Send + Sync {
 
     /// Learns, once a movement, that it goes to the destination at this place.
     fn learn(&mut self, _chosen: usize, _learnt: &mut Learnt) {}
+
+    /// What outlasts the movement.
+    fn lasting(&self) -> Lasting {
+        Lasting::default()
+    }
+
+    /// Begins with what [`Engine::lasting`] of an earlier movement was.
+    fn carry(&mut self, _lasting: &Lasting) {}
 
     /// What a snapshot keeps.
     fn save(&self) -> Value;

@@ -6,6 +6,7 @@ mod movement;
 #[cfg(feature = "wasm")]
 mod size;
 
+use crate::engine::Lasting;
 use crate::error::{Code, Error, Result};
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
@@ -50,6 +51,8 @@ pub struct Predictor {
     pub(crate) habits: Habits,
     /// What was learnt of the user; none of a new one.
     learnt: Option<Box<Learnt>>,
+    /// What outlasted the movements before.
+    pub(crate) lasting: Lasting,
     posterior: Posterior,
     log_likelihoods: Vec<f64>,
     /// Whether the posterior is that of an earlier state.
@@ -74,6 +77,7 @@ impl Predictor {
             movement,
             habits: Habits::default(),
             learnt: None,
+            lasting: Lasting::default(),
             posterior: Posterior::default(),
             log_likelihoods: Vec::new(),
             stale: true,
@@ -115,6 +119,7 @@ impl Predictor {
         let Some(movement) = &mut self.movement else {
             let mut movement = Movement::begin(&self.scenario, &self.destinations, time, position, noise)?;
             movement.engine.apply(&self.learnt(), self.scenario.learning.is_some());
+            movement.engine.carry(&self.lasting);
             self.movement = Some(movement);
             self.stale = true;
             return Ok(());
@@ -297,9 +302,11 @@ impl Predictor {
         self.movement.as_mut()?.state(&self.posterior, self.destinations.priors(), later, only)
     }
 
-    /// Forgets the movement; the next observation begins a new one with the same scenario and destinations.
+    /// Forgets the movement but for how much the hand shakes, where that is followed; the next observation begins a new one with the same scenario and destinations.
     pub fn reset(&mut self) {
-        self.movement = None;
+        if let Some(movement) = self.movement.take() {
+            self.lasting = movement.engine.lasting();
+        }
         self.stale = true;
     }
 

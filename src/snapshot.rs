@@ -68,10 +68,13 @@ impl Predictor {
         let habits = if self.scenario.learning.is_some() { self.habits.save() } else { Value::Null };
         let scenario = self.scenario.to_value_with(&self.destinations);
         let mut body = Value::map([("scenario", scenario), ("habits", habits), ("movement", movement)]);
-        if let Value::Map(entries) = &mut body
-            && self.learnt() != Learnt::default()
-        {
-            entries.push(("learnt".into(), Value::exact_numbers(&self.learnt().numbers())));
+        if let Value::Map(entries) = &mut body {
+            if self.learnt() != Learnt::default() {
+                entries.push(("learnt".into(), Value::exact_numbers(&self.learnt().numbers())));
+            }
+            if self.lasting.iter().any(|number| *number != 0.0) {
+                entries.push(("lasting".into(), Value::exact_numbers(&self.lasting)));
+            }
         }
         let seal = seal(&body);
         Snapshot(Value::map([
@@ -114,7 +117,7 @@ impl Predictor {
     }
 
     fn read_body(node: &Node<'_>) -> Result<Self> {
-        let fields = node.fields(&["scenario", "habits", "movement", "learnt"])?;
+        let fields = node.fields(&["scenario", "habits", "movement", "learnt", "lasting"])?;
         let scenario = Arc::new(Scenario::from_value(fields.required("scenario")?.value())?);
         let destinations = Arc::clone(&scenario.destinations);
         let load = |movement: Node<'_>| Movement::load(&movement, &scenario, &destinations);
@@ -129,6 +132,10 @@ impl Predictor {
             let saved = learnt.exact_numbers(numbers.len())?;
             numbers.copy_from_slice(&saved);
             predictor.apply_learnt(Learnt::of(numbers));
+        }
+        if let Some(lasting) = fields.optional("lasting") {
+            let saved = lasting.exact_numbers(predictor.lasting.len())?;
+            predictor.lasting.copy_from_slice(&saved);
         }
         Ok(predictor)
     }

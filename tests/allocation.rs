@@ -54,7 +54,7 @@ fn pointing(count: u32, sizes: Sizes) -> Predictor {
         width: sizes.of(i),
         height: 60.0,
     });
-    let options = PointerOptions { none: 0.05 };
+    let options = PointerOptions { none: 0.05, ..PointerOptions::default() };
     Predictor::new(&pointer_scenario(&targets.collect::<Vec<_>>(), options).unwrap())
 }
 

@@ -348,6 +348,11 @@ export interface Pointing {
    * @defaultValue 0; `pointerScenario` sets 45
    */
   readonly restDistance?: number | undefined;
+  /**
+   * The largest amplitude of shake that is expected, in units of length, as of a hand in a moving car: 2 to 8 Hz, how much and how
+   * fast is followed. @defaultValue 0, none
+   */
+  readonly shake?: number | undefined;
   /** How the weight of "none" grows with the power. */
   readonly noneGain: number;
   /** What is added to the log weight of "none" once the pointer moves. @defaultValue 0 */

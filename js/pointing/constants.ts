@@ -63,6 +63,7 @@ const RULES: Rules = {
     power: { from: notNegative, to: notNegative, time: positive },
     near: notNegative,
     restDistance: notNegative,
+    shake: notNegative,
     noneGain: number,
     noneOffset: number,
     noneShare: share,

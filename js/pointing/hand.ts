@@ -26,6 +26,11 @@ export interface HandTarget {
 export interface HandOptions {
   /** The prior probability that the hand is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
   readonly none?: number | undefined;
+  /**
+   * The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the hand: how much it does, and how fast,
+   * is followed, from movement to movement too. 0 expects none and costs nothing. @defaultValue 0
+   */
+  readonly shake?: number | undefined;
   /** The deviation of a tracked coordinate, in `unit`. @defaultValue 0.25 mm */
   readonly noise?: number | undefined;
   /** The unit of all lengths, the observations' too. @defaultValue `"millimetres"` */

@@ -24,6 +24,11 @@ export interface RayTarget {
 export interface RayOptions {
   /** The prior probability that the ray is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
   readonly none?: number | undefined;
+  /**
+   * The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the ray: how much it does, and how fast,
+   * is followed, from movement to movement too. 0 expects none and costs nothing. @defaultValue 0
+   */
+  readonly shake?: number | undefined;
   /** The deviation of an observed angle, in `unit`: half a degree and more for an eye tracker. @defaultValue 0.05 degrees */
   readonly noise?: number | undefined;
   /** The unit of all angles, the observations' too. @defaultValue `"degrees"` */

@@ -19,6 +19,11 @@ export interface PointerTarget {
 export interface PointerOptions {
   /** The prior probability that the pointer is going to none of the targets, from 0 to less than 1. @defaultValue 0 */
   readonly none?: number | undefined;
+  /**
+   * The largest amplitude, in px, by which a moving car or a tremor is expected to shake the pointer: how much it does, and how fast, is
+   * followed, from movement to movement too. 0 expects none and costs nothing. @defaultValue 0
+   */
+  readonly shake?: number | undefined;
 }
 
 /**

@@ -1,6 +1,7 @@
 //! The cosine, by its series: the standard library's reduces angles of any size, which nothing here has, in 7 kB of code.
 
 /// `cos(2 pi x)` for `x` from 0 to 1, to an absolute 1e-15.
+#[inline(never)]
 #[must_use]
 pub fn cosine(turn: f64) -> f64 {
     let from_half = (turn - 0.5).abs();

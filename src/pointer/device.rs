@@ -25,6 +25,8 @@ pub(crate) struct Device {
 pub(crate) struct Choices {
     /// The prior of none of the targets.
     pub none: f64,
+    /// The largest amplitude of a shake that is expected, in the user's unit of length.
+    pub shake: f64,
     /// The deviation of an observation, where it is not the device's.
     pub noise: Option<f64>,
     /// How many of the user's units of length there are in the one that the constants are in.
@@ -57,7 +59,7 @@ pub(crate) const HAND: Device = Device {
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { none: 0.0, noise: None, unit: 1.0 }
+        Self { none: 0.0, shake: 0.0, noise: None, unit: 1.0 }
     }
 }
 
@@ -81,6 +83,7 @@ impl Device {
         constants.direction.distance *= unit;
         constants.rest_distance *= unit;
         constants.unit *= unit;
+        constants.shake = choices.shake;
         if let Some(remaining) = &mut constants.remaining {
             remaining.distance *= unit;
         }

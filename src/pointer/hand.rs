@@ -58,6 +58,9 @@ pub struct HandTarget {
 pub struct HandOptions {
     /// The prior probability that the hand is going to none of the targets.
     pub none: f64,
+    /// The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the hand, as
+    /// [`PointerOptions::shake`](super::PointerOptions::shake); by default none.
+    pub shake: f64,
     /// The deviation of an observed coordinate, in `unit`; by default 0.25 mm.
     pub noise: Option<f64>,
     /// The unit of all lengths.
@@ -83,6 +86,7 @@ pub fn hand_scenario(targets: &[HandTarget], options: HandOptions) -> Result<Sce
     let destinations = targets.iter().map(|HandTarget { id, x, y, z, width, height, depth }| {
         Destination::new(id, [*x, *y, *z]).size([*width, *height, *depth])
     });
-    let choices = Choices { none: options.none, noise: options.noise, unit: HAND.units[options.unit as usize].1 };
-    HAND.scenario(&choices, destinations.collect())
+    let HandOptions { none, shake, noise, unit } = options;
+    let unit = HAND.units[unit as usize].1;
+    HAND.scenario(&Choices { none, shake, noise, unit }, destinations.collect())
 }

@@ -37,18 +37,21 @@ pub struct PointerTarget {
 /// use whither::{PointerOptions, PointerTarget, Predictor, pointer_scenario};
 /// let target = |id: &str, x| PointerTarget { id: id.to_owned(), x, y: 0.0, width: 90.0, height: 90.0 };
 /// let targets = [target("radio", 0.0), target("map", 500.0)];
-/// let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.5 }).unwrap());
+/// let mut predictor = Predictor::new(&pointer_scenario(&targets, PointerOptions { none: 0.5, ..PointerOptions::default() }).unwrap());
 /// assert_eq!((predictor.none(), predictor.probabilities()), (0.5, &[0.25, 0.25][..]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointerOptions {
     /// The prior probability that the pointer is going to none of the targets.
     pub none: f64,
+    /// The largest amplitude, in px, by which a moving car or a tremor is expected to shake the pointer: how much it does, and how fast,
+    /// is followed. 0, which is the default, expects none and costs nothing.
+    pub shake: f64,
 }
 
 impl Default for PointerOptions {
     fn default() -> Self {
-        Self { none: 0.0 }
+        Self { none: 0.0, shake: 0.0 }
     }
 }
 
@@ -70,5 +73,6 @@ pub fn pointer_scenario(targets: &[PointerTarget], options: PointerOptions) -> R
     let destinations = targets
         .iter()
         .map(|PointerTarget { id, x, y, width, height }| Destination::new(id, [*x, *y]).size([*width, *height]));
-    POINTER.scenario(&Choices { none: options.none, ..Choices::default() }, destinations.collect())
+    POINTER
+        .scenario(&Choices { none: options.none, shake: options.shake, ..Choices::default() }, destinations.collect())
 }

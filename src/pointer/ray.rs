@@ -56,6 +56,9 @@ pub struct RayTarget {
 pub struct RayOptions {
     /// The prior probability that the ray is going to none of the targets.
     pub none: f64,
+    /// The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the ray, as
+    /// [`PointerOptions::shake`](super::PointerOptions::shake); by default none.
+    pub shake: f64,
     /// The deviation of an observed angle, in `unit`; by default 0.05 degrees.
     pub noise: Option<f64>,
     /// The unit of all angles.
@@ -81,8 +84,9 @@ pub fn ray_scenario(targets: &[RayTarget], options: RayOptions) -> Result<Scenar
     let destinations = targets.iter().map(|RayTarget { id, azimuth, elevation, width, height }| {
         Destination::new(id, [*azimuth, *elevation]).size([*width, *height])
     });
-    let choices = Choices { none: options.none, noise: options.noise, unit: RAY.units[options.unit as usize].1 };
-    RAY.scenario(&choices, destinations.collect())
+    let RayOptions { none, shake, noise, unit } = options;
+    let unit = RAY.units[unit as usize].1;
+    RAY.scenario(&Choices { none, shake, noise, unit }, destinations.collect())
 }
 
 /// Directions as points of a plane, by the azimuthal equidistant map: as far from its middle, and in the direction, in which the ray has

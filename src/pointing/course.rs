@@ -4,7 +4,9 @@
 //! places one time, and of those the last is where the pointer was then. So the course keeps its state before the last one.
 
 use super::parameters::PointingConstants;
+use super::shake::{self, Shake};
 use super::{Space, Vector, dot, minus, vector};
+use crate::engine::Lasting;
 use crate::error::Result;
 use crate::value::{Node, Value};
 use whither_kernel::constant_velocity::ConstantVelocity;
@@ -24,16 +26,6 @@ type Axes = AxisFilters<2, 4>;
 /// The axes of a movement, all of which move alike.
 fn axes_of(dimensions: usize, filters: [Axis; AXES]) -> Axes {
     Axes::new(dimensions, filters, &[true; AXES])
-}
-
-/// An axis at the first observation.
-fn begin(position: f64, variance: f64, speed_variance: f64) -> Axis {
-    let (deviation, speed) = (variance.sqrt(), speed_variance.sqrt());
-    let mut root = [[0.0; 4]; 4];
-    for (row, column, entry) in [(0, 0, deviation), (1, 1, speed), (2, 0, deviation), (3, 1, speed)] {
-        root[row][column] = entry;
-    }
-    Axis::new(2, [position, 0.0], [position, 0.0], root)
 }
 
 /// One observation; none marks an axis that is missing.
@@ -126,6 +118,8 @@ pub(crate) struct Course<S> {
     last: Observed,
     /// Meaningless at the first observation.
     before: Before,
+    /// The hand apart from its shake, where it is expected to shake.
+    shake: Option<Box<Shake>>,
 }
 
 impl<S: Space> Course<S> {
@@ -133,22 +127,39 @@ impl<S: Space> Course<S> {
     #[must_use]
     pub fn begin(space: S, parameters: &PointingConstants, position: &[f64], variances: &[f64]) -> Self {
         let mut start = Vector::default();
-        let mut axes = [begin(0.0, 0.0, 0.0); AXES];
+        let mut axes = [Axis::begin(0.0, [0.0; 2]); AXES];
         for (j, (&y, &variance)) in position.iter().zip(variances).enumerate().take(3) {
             start[j] = y;
-            axes[j] = begin(y, variance, parameters.first_speed[j].powi(2));
+            axes[j] = Axis::begin(y, [variance.sqrt(), parameters.first_speed[j]]);
         }
         let axes = axes_of(space.dimensions(), axes);
+        let shake = (parameters.shake > 0.0).then(|| Box::new(Shake::begin(parameters, &start, &vector(variances))));
         let last = Observed { position: vector(position).map(Some), variances: vector(variances) };
-        Self {
-            space,
-            start,
-            elapsed: 0.0,
-            farthest: 0.0,
-            observations: 1,
-            axes,
-            last,
-            before: Before { elapsed: 0.0, farthest: 0.0, axes },
+        let before = Before { elapsed: 0.0, farthest: 0.0, axes };
+        let mut course = Self { space, start, elapsed: 0.0, farthest: 0.0, observations: 1, axes, last, before, shake };
+        course.part();
+        course
+    }
+
+    /// Where the hand is expected to shake, the axes are the hand's alone. The state at the first observation stays as it was then.
+    fn part(&mut self) {
+        let Some(shake) = &self.shake else { return };
+        for k in 0..self.space.dimensions() {
+            let (now, covariance) = shake.estimate(k);
+            self.axes[k].replace_now(now, covariance);
+        }
+    }
+
+    /// What outlasts the movement: the evidence on how much the hand shakes, where it is expected to.
+    #[must_use]
+    pub fn lasting(&self) -> Lasting {
+        self.shake.as_ref().map_or(Lasting::default(), |shake| shake.evidence())
+    }
+
+    /// Begins with what outlasted an earlier movement.
+    pub fn carry(&mut self, lasting: &Lasting) {
+        if let Some(shake) = &mut self.shake {
+            shake.carry(lasting);
         }
     }
 
@@ -162,11 +173,14 @@ impl<S: Space> Course<S> {
         variances: &[f64],
     ) {
         let (observed, d) = (Observed::new(position, variances), self.dimensions());
-        if elapsed == self.elapsed {
+        let again = elapsed == self.elapsed;
+        if again {
             self.last = observed.or(&self.last);
             if self.observations < 2 {
                 let position = self.last.position.map(|axis| axis.unwrap_or(0.0));
+                let lasting = self.lasting();
                 *self = Self::begin(self.space, parameters, &position[..d], &self.last.variances);
+                self.carry(&lasting);
                 return;
             }
             Before { elapsed: self.elapsed, farthest: self.farthest, axes: self.axes } = self.before;
@@ -176,17 +190,22 @@ impl<S: Space> Course<S> {
             (self.before.elapsed, self.before.farthest) = (self.elapsed, self.farthest);
             self.before.axes = self.axes;
         }
-        self.follow(parameters, elapsed);
+        self.follow(parameters, elapsed, again);
     }
 
-    /// Takes in `last`.
-    fn follow(&mut self, parameters: &PointingConstants, elapsed: f64) {
+    /// Takes in `last`, with `again` in the place of the one before.
+    fn follow(&mut self, parameters: &PointingConstants, elapsed: f64, again: bool) {
         let Observed { position, variances } = self.last;
         let step = elapsed - self.elapsed;
         let velocity = self.velocity();
         let noise = parameters.filter_noise.powi(2) + parameters.speed_noise.powi(2) * dot(&velocity, &velocity);
         let seconds = step.max(SHORTEST_STEP);
-        ConstantVelocity { seconds, noise }.advance(&mut self.axes, &position, &variances);
+        if let Some(shake) = &mut self.shake {
+            shake.advance(parameters, seconds, (&position, &variances), again);
+            self.part();
+        } else {
+            ConstantVelocity { seconds, noise }.advance(&mut self.axes, &position, &variances);
+        }
         let way = minus(&self.position(), &self.start);
         self.farthest = self.farthest.max(dot(&way, &way));
         self.elapsed = elapsed;
@@ -283,6 +302,7 @@ impl<S: Space> Course<S> {
             numbers.extend(axis.first);
             numbers.extend(axis.root().as_flattened());
         }
+        numbers.extend(self.shake.iter().flat_map(|shake| shake.save()));
         Value::map([
             ("elapsed", Value::exact(self.elapsed)),
             ("observations", Value::Number(self.observations as f64)),
@@ -294,10 +314,12 @@ impl<S: Space> Course<S> {
     ///
     /// # Errors
     /// Those of reading a value.
-    pub fn load(node: &Node<'_>, space: S) -> Result<Self> {
+    pub fn load(node: &Node<'_>, space: S, parameters: &PointingConstants) -> Result<Self> {
         let (d, each) = (space.dimensions(), 20 * space.dimensions());
+        let shaken = if parameters.shake > 0.0 { shake::NUMBERS } else { 0 };
         let fields = node.fields(&["elapsed", "observations", "axes", "trail"])?;
-        let numbers = fields.required("axes")?.exact_numbers(3 * (d + 1) + 2 * each)?;
+        let numbers = fields.required("axes")?.exact_numbers(3 * (d + 1) + 2 * each + shaken)?;
+        let (numbers, shaken) = numbers.split_at(3 * (d + 1) + 2 * each);
         let axes = load_axes(d, &numbers[3 * (d + 1)..][..each]);
         let axes_before = load_axes(d, &numbers[3 * (d + 1) + each..]);
         let [farthest, elapsed_before, farthest_before] = vector(&numbers[3 * d..]);
@@ -315,13 +337,14 @@ impl<S: Space> Course<S> {
             last: Observed { position, variances: vector(&numbers[2 * d..3 * d]) },
             before,
             farthest,
+            shake: (!shaken.is_empty()).then(|| Box::new(Shake::load(shaken))),
         })
     }
 }
 
 /// The axes that [`Course::save`] wrote.
 fn load_axes(dimensions: usize, numbers: &[f64]) -> Axes {
-    let mut axes = [begin(0.0, 0.0, 0.0); AXES];
+    let mut axes = [Axis::begin(0.0, [0.0; 2]); AXES];
     for (axis, n) in axes.iter_mut().zip(numbers.chunks_exact(20)) {
         let root = std::array::from_fn(|i| std::array::from_fn(|j| n[4 + 4 * i + j]));
         *axis = Axis::new(2, [n[2], n[3]], [n[0], n[1]], root);

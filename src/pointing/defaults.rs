@@ -29,6 +29,7 @@ const CONSTANTS: PointingConstants = PointingConstants {
     near: 1.5,
     // a pointer that rests from the first sample on may mean what it rests on
     rest_distance: 45.0,
+    shake: 0.0,
     // calibrated with the true target taken out of half of the movements, at a prior of .2 and of .5
     none_gain: 2.1,
     none_offset: -0.67,
@@ -134,6 +135,7 @@ impl PointingConstants {
             power,
             near,
             rest_distance,
+            shake: 0.0,
             none_gain,
             none_offset,
             none_share,

@@ -6,7 +6,7 @@ use super::parameters::{PointingConstants, axis_variances};
 use super::space::AnySpace;
 use super::targets::Targets;
 use super::trail::Trail;
-use crate::engine::{Engine, Observed};
+use crate::engine::{Engine, Lasting, Observed};
 use crate::error::Result;
 use crate::math::gaussian::Gaussian;
 use crate::model::destination::Destinations;
@@ -41,7 +41,7 @@ impl PointingEngine {
     /// # Errors
     /// Those of reading a value.
     pub fn load(node: &Node<'_>, parameters: Arc<PointingConstants>, destinations: &Destinations) -> Result<Self> {
-        let course = Course::load(node, AnySpace(destinations.dimensions()))?;
+        let course = Course::load(node, AnySpace(destinations.dimensions()), &parameters)?;
         let mut pointing = Pointing::resume(parameters, targets(destinations), course);
         if let Some(trail) = node.get("trail") {
             pointing.trail = Some(Box::new(Trail::load(&trail)?));
@@ -101,6 +101,14 @@ impl Engine for PointingEngine {
 
     fn learn(&mut self, chosen: usize, learnt: &mut Learnt) {
         self.0.learn(chosen, learnt);
+    }
+
+    fn lasting(&self) -> Lasting {
+        self.0.course().lasting()
+    }
+
+    fn carry(&mut self, lasting: &Lasting) {
+        self.0.carry(lasting);
     }
 
     fn save(&self) -> Value {

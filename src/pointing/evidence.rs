@@ -79,7 +79,7 @@ impl<'a, S: Space> DirectionNow<'a, S> {
         let (along, across) = (dot(&self.way, offset) + 0.0, cross(&self.way, offset));
         let angle = dot(&across, &across).sqrt().atan2(along).powi(2);
         let size = angular_variance(self.unit, offset, extent, self.space.dimensions());
-        let term = |square: f64| (angle / (square + size)).ln_1p();
+        let term = |square: f64| (1.0 + angle / (square + size)).ln();
         self.weight * (2.0 * term(self.wide_squared()) - term(self.core_squared()))
     }
 }

@@ -45,6 +45,7 @@ impl PointingConstants {
             "power",
             "near",
             "restDistance",
+            "shake",
             "noneGain",
             "noneOffset",
             "noneShare",
@@ -63,6 +64,7 @@ impl PointingConstants {
             power: Power::read(&fields.required("power")?)?,
             near: fields.float("near")?,
             rest_distance: or(0.0, "restDistance")?,
+            shake: or(0.0, "shake")?,
             none_gain: fields.float("noneGain")?,
             none_offset: or(0.0, "noneOffset")?,
             none_share: or(0.0, "noneShare")?,
@@ -73,12 +75,13 @@ impl PointingConstants {
         })
     }
 
-    fn numbers(&self) -> Numbers<9> {
+    fn numbers(&self) -> Numbers<10> {
         [
             ("alongNoise", self.along_noise, NOT_NEGATIVE),
             ("acrossNoise", self.across_noise, NOT_NEGATIVE),
             ("near", self.near, NOT_NEGATIVE),
             ("restDistance", self.rest_distance, NOT_NEGATIVE),
+            ("shake", self.shake, NOT_NEGATIVE),
             ("noneGain", self.none_gain, FINITE),
             ("noneOffset", self.none_offset, FINITE),
             ("noneShare", self.none_share, SHARE),

@@ -28,12 +28,19 @@ pub struct Total {
 }
 
 /// Room that is kept from step to step; what is in it is no part of any state.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Work {
     densities: Vec<Densities>,
     /// A buffer for the weights where the arrays have another order than the destinations.
     aside: Vec<Block>,
     powers: Powers,
+}
+
+/// None yet: another movement makes its own.
+impl Clone for Work {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// What all destinations have in common after an observation.

@@ -11,6 +11,7 @@
 //! | direction | the way covered so far points at the target, the better the farther one has come | `evidence` |
 //! | power | the first samples carry less evidence than the model has it, the later ones more | [`parameters::Power`] |
 //! | near | a movement seldom ends where it began | `evidence` |
+//! | shake | in a car the observed position is not the hand's alone; only where a scenario asks for it | `shake` |
 //! | onset | a pointer that rests from the start on has not begun a movement, and may mean what it rests on | `course` |
 //! | confidence | users differ in how far all of this holds for them: the log score times a factor that outcomes teach | `learning`, `trail` |
 //!
@@ -32,6 +33,7 @@ pub(crate) mod kernel;
 mod learning;
 pub mod parameters;
 mod posterior;
+pub(crate) mod shake;
 #[cfg(any(test, feature = "wasm-pointing"))]
 pub(crate) mod sizes;
 pub(crate) mod space;
@@ -39,6 +41,7 @@ mod state;
 pub(crate) mod targets;
 mod trail;
 
+pub(crate) use crate::engine::Lasting;
 use crate::math::log_sum_exp::share;
 use crate::model::learnt::Learnt;
 use course::{Course, Onset};
@@ -142,6 +145,11 @@ impl<S: Space> Pointing<S> {
         if let Some(trail) = &mut self.trail {
             trail.keep(&self.course);
         }
+    }
+
+    /// Begins with what outlasted an earlier movement, [`Course::lasting`].
+    pub fn carry(&mut self, lasting: &Lasting) {
+        self.course.carry(lasting);
     }
 
     fn onset(&self) -> Onset {

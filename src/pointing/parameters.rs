@@ -42,6 +42,8 @@ pub struct PointingConstants {
     /// that the evidence of the start fades: `near` in proportion, the start density by a core that grows with the distance that is missing.
     /// 0: never.
     pub rest_distance: f64,
+    /// The largest amplitude of shake that is expected, in units of length; with 0, which is the default, none is.
+    pub shake: f64,
     /// What a destination has to gain before it counts against "none".
     pub none_gain: f64,
     /// What is added to the log weight of "none" once the pointer moves.

@@ -21,10 +21,10 @@ pub fn device_scenario(kind: u32, value: &[u8]) -> Result<Vec<u8>> {
         fields.required("targets")?.items()?.map(|item| target(&item, &device)).collect::<crate::Result<Vec<_>>>()?;
     let mut choices = Choices::default();
     if let Some(given) = fields.optional("options") {
-        let keys = ["none", "noise", "unit"];
-        let given = given.fields(if device.units.is_empty() { &keys[..1] } else { &keys })?;
-        if let Some(none) = given.optional("none") {
-            choices.none = none.number()?;
+        let keys = ["none", "shake", "noise", "unit"];
+        let given = given.fields(if device.units.is_empty() { &keys[..2] } else { &keys })?;
+        for (key, choice) in [("none", &mut choices.none), ("shake", &mut choices.shake)] {
+            *choice = given.optional(key).map_or(Ok(0.0), |number| number.number())?;
         }
         choices.noise = given.optional("noise").map(|noise| noise.positive()).transpose()?;
         if let Some(unit) = given.optional("unit") {

@@ -8,13 +8,13 @@
 //! | `targets` | of each target `x`, `y`, width, height, prior |
 
 use crate::Learnt;
-use crate::pointing::Pointing;
 use crate::pointing::defaults::{OBSERVATION_NOISE, REMAINING};
 use crate::pointing::entry_time::EntryTime;
 use crate::pointing::parameters::PointingConstants;
 use crate::pointing::sizes::Sizes;
 use crate::pointing::space::Plane;
 use crate::pointing::targets::{Extent, Target, Targets};
+use crate::pointing::{Lasting, Pointing};
 use crate::posterior::shares;
 use std::sync::Arc;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -39,6 +39,8 @@ pub struct PointerEngine {
     learnt_numbers: [f64; 7],
     targets: Arc<Targets>,
     movement: Option<Box<Pointing<Plane>>>,
+    /// What outlasted the movements before.
+    lasting: Lasting,
     probabilities: Vec<f64>,
     none: f64,
     /// Whether the probabilities are older than the last observation or change.
@@ -60,6 +62,7 @@ impl PointerEngine {
             learnt_numbers: [0.0; 7],
             targets: read_targets(targets),
             movement: None,
+            lasting: Lasting::default(),
             probabilities: Vec::new(),
             none,
             stale: true,
@@ -90,6 +93,7 @@ impl PointerEngine {
         }
         let (parameters, targets) = (Arc::clone(&self.parameters), Arc::clone(&self.targets));
         let mut movement = Pointing::begin(Plane, parameters, targets, &[x, y], &self.variances);
+        movement.carry(&self.lasting);
         movement.apply(&self.learnt);
         if self.learning {
             movement.keep_trail();
@@ -202,7 +206,9 @@ impl PointerEngine {
 
     /// Ends the movement.
     pub fn reset(&mut self) {
-        self.movement = None;
+        if let Some(movement) = self.movement.take() {
+            self.lasting = movement.course().lasting();
+        }
         self.stale = true;
     }
 }
@@ -249,7 +255,7 @@ impl Constants {
     }
 
     /// The numbers in their order.
-    fn places(&mut self) -> [&mut f64; 40] {
+    fn places(&mut self) -> [&mut f64; 41] {
         let Self { none, parameters: p, entry, points, deviations: [deviation_x, deviation_y] } = self;
         let ([speed_x, speed_y, _], time, direction) = (&mut p.first_speed, &mut p.time_to_go, &mut p.direction);
         [
@@ -281,6 +287,7 @@ impl Constants {
             &mut p.power.time,
             &mut p.near,
             &mut p.rest_distance,
+            &mut p.shake,
             &mut p.none_gain,
             &mut p.none_offset,
             &mut p.none_share,

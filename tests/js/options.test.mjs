@@ -52,15 +52,15 @@ const functions = {
   "initSync of whither/pointing": { call: (options) => pointing.initSync(options), keys: ["module"] },
   observe: { call: (options) => predictor.observe(++time, [1, 2], options), keys: ["noise"] },
   "observe with a missing axis": { call: (options) => predictor.observe(++time, [1, null], options), keys: ["noise"] },
-  pointerScenario: { call: (options) => pointerScenario([target], options), keys: ["none"], prefix: "options." },
+  pointerScenario: { call: (options) => pointerScenario([target], options), keys: ["none", "shake"], prefix: "options." },
   rayScenario: {
     call: (options) => rayScenario([{ id: "a", azimuth: 1, elevation: 2, width: 3, height: 4 }], options),
-    keys: ["none", "noise", "unit"],
+    keys: ["none", "shake", "noise", "unit"],
     prefix: "options.",
   },
   handScenario: {
     call: (options) => handScenario([target], options),
-    keys: ["none", "noise", "unit"],
+    keys: ["none", "shake", "noise", "unit"],
     prefix: "options.",
   },
   rayMap: { call: (options) => rayMap([0, 0, -1], options), keys: ["unit"], prefix: "options." },

@@ -331,3 +331,39 @@ test("targets of any kind of object, with the same errors as others", () => {
     same(expected.probabilities(), before);
   }
 });
+
+test("a car's shake is followed alike, from movement to movement and in snapshots", () => {
+  const draw = draws(11);
+  const targets = targetsOf(draw, 21, 3);
+  const constants = { pointing: { shake: 20 } };
+  const pair = {
+    predictor: new Predictor(pointerScenario(targets, { shake: 20 })),
+    pointer: new PointerPredictor(targets, { constants }),
+  };
+  const plain = new PointerPredictor(targets);
+  let apart = 0;
+  for (let round = 0; round < 3; round++) {
+    const [turn, from, to] = [2 * Math.PI * draw(), targets[round], targets[round + 7]];
+    for (let k = 0; k < 30; k++) {
+      const [time, way] = [k / 60, (k / 29) ** 2 * (3 - (2 * k) / 29)];
+      const shake = 20 * Math.sin(turn + 2 * Math.PI * 6 * time);
+      const position = [from.x + way * (to.x - from.x) + shake, from.y + way * (to.y - from.y) - shake];
+      for (const each of [pair.predictor, pair.pointer, plain]) each.observe(time, position);
+      agree(pair, targets, time, `round ${round}, observation ${k}`);
+      apart = Math.max(apart, ...plain.probabilities().map((p, i) => Math.abs(p - pair.pointer.probabilities()[i])));
+      if (k === 11) {
+        pair.predictor = Predictor.restore(JSON.parse(JSON.stringify(pair.predictor.snapshot())));
+        pair.pointer = pair.pointer.clone();
+      }
+    }
+    for (const each of [pair.predictor, pair.pointer, plain]) each.reset();
+  }
+  assert.ok(apart > 0.2, `${apart}`);
+  refuses(
+    () => new PointerPredictor(targets, { constants: { pointing: { shake: -1 } } }),
+    "out-of-range",
+    "pointing.shake",
+    "must be at least 0, got -1",
+  );
+  refuses(() => pointerScenario(targets, { shake: -1 }), "out-of-range", "pointing.shake", "must be at least 0, got -1");
+});

@@ -21,7 +21,7 @@ fn place(random: &mut Random, name: usize, sizes: &[f64], speeds: bool) -> Json 
 fn scenario(method: &str, none: f64, destinations: &[Json]) -> Json {
     if method == "pointing" {
         let target = PointerTarget { id: "a".to_owned(), x: 0.0, y: 0.0, width: 50.0, height: 50.0 };
-        let pointer = pointer_scenario(&[target], PointerOptions { none }).unwrap();
+        let pointer = pointer_scenario(&[target], PointerOptions { none, ..PointerOptions::default() }).unwrap();
         let mut scenario = serde_json::to_value(pointer).unwrap();
         scenario["destinations"] = json!(destinations);
         return scenario;

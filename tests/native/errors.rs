@@ -107,7 +107,8 @@ fn build(base: &str, from: &Json) -> Result<Box<dyn Subject>> {
                 height: target["height"].as_f64().unwrap(),
             };
             let targets: Vec<PointerTarget> = from["targets"].as_array().unwrap().iter().map(target).collect();
-            let options = PointerOptions { none: from["options"]["none"].as_f64().unwrap() };
+            let options =
+                PointerOptions { none: from["options"]["none"].as_f64().unwrap(), ..PointerOptions::default() };
             Box::new(Predictor::new(&pointer_scenario(&targets, options)?))
         }
         "ray" => {

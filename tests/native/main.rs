@@ -22,6 +22,7 @@ mod pointing;
 mod pointing_times;
 mod problem;
 mod sequences;
+mod shake;
 mod states;
 mod support;
 mod typed;

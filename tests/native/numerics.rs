@@ -196,7 +196,7 @@ fn an_outlier_is_forgotten() {
 fn the_pointing_model_survives_an_outlier() {
     let target = |id: &str, x: f64| PointerTarget { id: id.to_owned(), x, y: 100.0, width: 80.0, height: 40.0 };
     let targets = [target("a", 100.0), target("b", 500.0), target("c", 900.0)];
-    let options = PointerOptions { none: 0.05 };
+    let options = PointerOptions { none: 0.05, ..PointerOptions::default() };
     let mut predictor = Predictor::new(&pointer_scenario(&targets, options).unwrap());
     let mut observe = |k: i32, x: f64| {
         predictor.observe(0.016 * f64::from(k), &[x, 100.0]).unwrap();

@@ -20,7 +20,7 @@ fn icons() -> Vec<PointerTarget> {
 }
 
 fn pointer(none: f64) -> Predictor {
-    Predictor::new(&pointer_scenario(&icons(), PointerOptions { none }).unwrap())
+    Predictor::new(&pointer_scenario(&icons(), PointerOptions { none, ..PointerOptions::default() }).unwrap())
 }
 
 /// All that a predictor answers, to the bit.

@@ -128,6 +128,26 @@ impl<const S: usize, const PAIR: usize> AxisFilter<S, PAIR> {
     }
 }
 
+impl AxisFilter<2, 4> {
+    /// At rest at a place, with these deviations of position and velocity: the first state, which is the state now.
+    pub fn begin(position: f64, [deviation, speed]: [f64; 2]) -> Self {
+        let state = [position, 0.0];
+        let covariance = [[deviation * deviation, 0.0], [0.0, speed * speed]];
+        let [one, other] = [[deviation, 0.0, 0.0, 0.0], [0.0, speed, 0.0, 0.0]];
+        Self { states: 2, first: state, now: state, covariance, root: [one, other, one, other] }
+    }
+
+    /// Replaces the state now by one that another filter has of it, independent of the first state as far as this one knows.
+    pub fn replace_now(&mut self, now: [f64; 2], covariance: Matrix<2>) {
+        let [[position, both], [_, velocity]] = covariance;
+        let deviation = position.max(f64::MIN_POSITIVE).sqrt();
+        let shared = both / deviation;
+        self.root[2] = [0.0, 0.0, deviation, 0.0];
+        self.root[3] = [0.0, 0.0, shared, (velocity - shared * shared).max(0.0).sqrt()];
+        (self.now, self.covariance) = (now, covariance);
+    }
+}
+
 /// The filters of the axes of one movement. An axis that moves as the first one does, began with its covariance and has been
 /// observed alike since is its twin: all but the means is computed once for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
