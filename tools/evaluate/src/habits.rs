@@ -50,7 +50,7 @@ pub fn run(template: &Template) -> Result<Json, String> {
 }
 
 /// Three rows of seven icons.
-fn icons() -> Vec<Target> {
+pub fn icons() -> Vec<Target> {
     let center = |i: usize| vec![140.0 + 160.0 * (i % 7) as f64, 160.0 + 190.0 * (i / 7) as f64];
     (0..21).map(|i| Target { center: center(i), size: vec![96.0; 2] }).collect()
 }

@@ -13,11 +13,14 @@ mod habits;
 mod intents;
 mod learning;
 mod methods;
+mod node;
 mod on_a_map;
 mod outcomes;
 mod peers;
 mod reading;
 mod report;
+mod shake;
+mod streams;
 mod sweep;
 mod variants;
 
@@ -100,6 +103,12 @@ struct Arguments {
     /// Instead, simulate users with habits, and print the gain from learning their habits.
     #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with = "files")]
     habits: bool,
+    /// Instead, shake the movements by 2 to 20 units of length at 2 to 8 Hz, and simulated ones too, without and with the option.
+    #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with_all = ["sweep", "fit", "habits"])]
+    shake: bool,
+    /// Instead, report the movements otherwise, at other rates, dropped, bunched, late, with gaps, to Predictor and to whither/dom.
+    #[arg(long, conflicts_with_all = OF_SCORES, conflicts_with_all = ["sweep", "fit", "habits", "shake"])]
+    streams: bool,
     /// Instead, replay the tracks through whither/dom with thresholds, weights of "none" and holding times varied one at a time: intents
     /// that were wrong, early and right, their lead, and those of a page without the target.
     #[arg(long, conflicts_with_all = NOT_OF_INTENTS)]
@@ -137,12 +146,25 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return report::write_json(&arguments.json, &json!({ "habits": habits::run(&Template::pointer()?)? }));
     }
     if arguments.sweep {
-        return in_place_of_scores(arguments, "sweep", |file, into| {
+        return in_place_of_scores(arguments, "sweep", Vec::new(), |file, into| {
             sweep::run(&Template::pointer()?.scenario, file, into)
         });
     }
     if arguments.fit {
-        return in_place_of_scores(arguments, "fit", |file, into| learning::run(&template_for(file)?, file, into));
+        return in_place_of_scores(arguments, "fit", Vec::new(), |file, into| {
+            learning::run(&template_for(file)?, file, into)
+        });
+    }
+    if arguments.shake {
+        let simulated = shake::simulated(&Template::pointer()?)?;
+        return in_place_of_scores(arguments, "shake", simulated, |file, into| {
+            shake::run(&template_for(file)?, file, into)
+        });
+    }
+    if arguments.streams {
+        return in_place_of_scores(arguments, "streams", Vec::new(), |file, into| {
+            streams::run(&Template::pointer()?.scenario, file, into)
+        });
     }
     if arguments.intents {
         return intents::run(
@@ -182,13 +204,13 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     Ok(())
 }
 
-/// Another table for each file, and the same under `key` of the report.
+/// Another table for each file, and the same under `key` of the report, after what is in `all`.
 fn in_place_of_scores(
     arguments: &Arguments,
     key: &str,
+    mut all: Vec<Json>,
     run: impl Fn(&Path, &mut Vec<Json>) -> Result<usize, String>,
 ) -> Result<(), String> {
-    let mut all = Vec::new();
     let mut skipped = 0;
     for file in &arguments.files {
         skipped += run(file, &mut all)?;

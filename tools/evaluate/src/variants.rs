@@ -192,7 +192,7 @@ fn list(track: &mut Track, [width, height]: [f64; 2], random: &mut Random) {
 }
 
 /// The spline at evenly spaced times, rounded, and at the last sample.
-fn resample(samples: &[Sample], interval: f64) -> Vec<Sample> {
+pub fn resample(samples: &[Sample], interval: f64) -> Vec<Sample> {
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else { return Vec::new() };
     let count = ((last.time - first.time) / interval).floor() as usize;
     let mut dense = Vec::with_capacity(count + 2);
