@@ -299,6 +299,10 @@ impl Classes {
         let endpoint = ClassEndpoint::new(rest, class.covariance(), self.dimensions, self.separable);
         let number = number(endpoint.key(), known);
         if number == self.endpoints.len() {
+            if number == 0 {
+                // mostly there is no other, and a list begins with room for four
+                self.endpoints.reserve_exact(1);
+            }
             self.endpoints.push(endpoint);
         }
         number
