@@ -26,7 +26,8 @@ export interface RayOptions {
   readonly none?: number | undefined;
   /**
    * The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the ray: how much it does, and how fast,
-   * is followed, from movement to movement too. 0 expects none and costs nothing. @defaultValue 0
+   * is followed, from movement to movement too. 0 expects none and costs nothing. What it gains was measured for pointers and hands
+   * alone. @defaultValue 0
    */
   readonly shake?: number | undefined;
   /** The deviation of an observed angle, in `unit`: half a degree and more for an eye tracker. @defaultValue 0.05 degrees */

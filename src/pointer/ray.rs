@@ -57,7 +57,7 @@ pub struct RayOptions {
     /// The prior probability that the ray is going to none of the targets.
     pub none: f64,
     /// The largest amplitude, in `unit`, by which a moving car or a tremor is expected to shake the ray, as
-    /// [`PointerOptions::shake`](super::PointerOptions::shake); by default none.
+    /// [`PointerOptions::shake`](super::PointerOptions::shake); by default none. What it gains was measured for pointers and hands alone.
     pub shake: f64,
     /// The deviation of an observed angle, in `unit`; by default 0.05 degrees.
     pub noise: Option<f64>,
