@@ -125,6 +125,7 @@ export class Demonstration {
       reasons: REASONS,
       reactivate: 0,
       load: "eager",
+      learning: !simulated,
       target: (icon) => ({ name: this.#labelOf(icon) }),
       pointers: simulated ? [GHOST] : undefined,
       onIntent: ({ target }) => {
@@ -194,7 +195,7 @@ export class Demonstration {
     if (simulated) return;
     this.#judged = outcome.target;
     const summary = this.#visitor.ledger.summary();
-    if (summary) numbers.total(summary);
+    if (summary) numbers.total(summary, outcome.learnt);
     status.show(`${label} pressed.`);
     status.announce(`${label} pressed: ${sentence(press)}.`, true);
   }

@@ -1,5 +1,5 @@
 /** The outcome of the last press, and of all presses together. */
-import type { LedgerSummary } from "whither/dom";
+import type { LedgerSummary, Outcome } from "whither/dom";
 import type { Press } from "../press.ts";
 import { milliseconds, percent } from "./format.ts";
 import { sentence } from "./sentences.ts";
@@ -34,11 +34,15 @@ export class Numbers {
     this.#write(`${simulated ? "Simulated hand. " : ""}${describe(press)}`);
   }
 
-  total({ presses, lead, right, wrong }: LedgerSummary): void {
+  /** `learnt` is what the presses have taught about the visitor, if they do. */
+  total({ presses, lead, right, wrong }: LedgerSummary, learnt: Outcome["learnt"]): void {
     this.#parts.median.textContent = milliseconds(lead);
     this.#parts.right.textContent = percent(right);
     this.#parts.wrong.textContent = percent(wrong);
-    this.#parts.presses.textContent = presses === 1 ? "Over 1 press" : `Over ${presses} presses`;
+    const over = presses === 1 ? "Over 1 press" : `Over ${presses} presses`;
+    const times = learnt?.confidence.toFixed(2);
+    const taught = learnt ? `. Learnt from them: your movements count ${times} times as much as at first` : "";
+    this.#parts.presses.textContent = `${over}${taught}.`;
   }
 
   #write(text: string): void {
