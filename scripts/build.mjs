@@ -18,7 +18,7 @@ const bundles = [
 ];
 
 /** Entries that every page which watches waits for: a file each. Those beside `whither/dom` import that as `#dom`. */
-const pages = ["dom"];
+const pages = ["dom", "react"];
 
 /** For resolvers that do not read `exports`: files next to package.json, where they look for `whither/slim` and the others. */
 const stubs = ["slim", "pointing", "study", ...pages];
@@ -111,10 +111,18 @@ async function bundleForPages() {
         if (file.type === "chunk") file.code = file.code.replace(/\bimport\(`([^`$]+)`\)/g, 'import("$1")');
     },
   };
+  // "use client" stays at the head of the file, which a test looks at
+  const checks = { moduleLevelDirective: false };
   const inputs = pages.map((name) => ({ [name]: `js/entries/${name}.ts` }));
   for (const input of [...inputs, { prediction: "js/dom/prediction/prediction.ts" }]) {
-    const bundle = await rolldown({ cwd: root, input, tsconfig: false, plugins: [aliasing, quoting] });
-    const minify = { compress: { target: syntax.target }, mangle: true, codegen: true };
+    const bundle = await rolldown({ cwd: root, input, tsconfig: false, external: ["react"], checks, plugins: [aliasing, quoting] });
+    // by the names of components React's developer tools show them
+    const keepNames = "react" in input;
+    const minify = {
+      compress: { target: syntax.target, keepNames: { function: keepNames, class: keepNames } },
+      mangle: { keepNames },
+      codegen: true,
+    };
     await bundle.write({ dir: dist, format: "es", minify, sourcemap: true, comments: { legal: false } });
     await bundle.close();
   }
