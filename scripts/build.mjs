@@ -115,7 +115,14 @@ async function bundleForPages() {
   const checks = { moduleLevelDirective: false };
   const inputs = pages.map((name) => ({ [name]: `js/entries/${name}.ts` }));
   for (const input of [...inputs, { prediction: "js/dom/prediction/prediction.ts" }]) {
-    const bundle = await rolldown({ cwd: root, input, tsconfig: false, external: ["react"], checks, plugins: [aliasing, quoting] });
+    const bundle = await rolldown({
+      cwd: root,
+      input,
+      tsconfig: false,
+      external: ["react"],
+      checks,
+      plugins: [aliasing, quoting],
+    });
     // by the names of components React's developer tools show them
     const keepNames = "react" in input;
     const minify = {

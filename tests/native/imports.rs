@@ -44,13 +44,17 @@ const RUST: [(&str, &[&str]); 16] = [
 const METHODS: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Each folder of js/ and the others that it may import.
-const JAVASCRIPT: [(&str, &[&str]); 5] = [
+const JAVASCRIPT: [(&str, &[&str]); 6] = [
     ("core", &[]),
     ("pointing", &["core"]),
     ("study", &["core"]),
     ("dom", &["core"]),
-    ("entries", &["core", "pointing", "dom", "study"]),
+    ("react", &[]),
+    ("entries", &["core", "pointing", "dom", "react", "study"]),
 ];
+
+/// Folders that import what `whither/dom` exports, as `#dom`.
+const BESIDE_DOM: [&str; 1] = ["react"];
 
 /// Folders of which another may import types alone: its code comes later, by `import()`.
 const TYPES: [(&str, &str); 1] = [("dom", "pointing")];
@@ -183,6 +187,8 @@ fn javascript_imports_go_one_way() {
         for (path, only_types) in imports(&text) {
             let legal = match path {
                 "#error" | "#module" => true,
+                "#dom" => BESIDE_DOM.contains(&own),
+                "react" => own == "react",
                 "#wasm" | "#bytes" => GENERATED.contains(&name.as_str()),
                 _ => match folder_of(&name, path).as_str() {
                     "generated" => GENERATED.contains(&name.as_str()),

@@ -10,7 +10,7 @@ import { sizes } from "../../scripts/size.mjs";
 import { project } from "./support.mjs";
 
 /** The most gzipped bytes of an entry, WebAssembly and JavaScript; of `whither/dom` without the core, which it loads later. */
-const heaviest = { whither: 175_000, "whither/pointing": 36_000, "whither/dom": 8_000 };
+const heaviest = { whither: 175_000, "whither/pointing": 36_000, "whither/dom": 8_000, "whither/react": 3_000 };
 
 test("the package", async (t) => {
   const { folder, files } = await project(t);
@@ -51,6 +51,8 @@ test("the package", async (t) => {
       "dist/pointing.wasm.d.ts",
       "dist/prediction.js",
       "dist/prediction.js.map",
+      "dist/react.js",
+      "dist/react.js.map",
       "dist/shared.js",
       "dist/shared.js.map",
       "dist/slim.js",
@@ -65,12 +67,15 @@ test("the package", async (t) => {
       "dist/types/dom.d.ts",
       "dist/types/index.d.ts",
       "dist/types/pointing.d.ts",
+      "dist/types/react.d.ts",
       "dist/types/shared.d.ts",
       "dist/types/shared2.d.ts",
       "dist/types/shared3.d.ts",
       "dist/types/shared4.d.ts",
       "dist/types/shared5.d.ts",
       "dist/types/shared6.d.ts",
+      "dist/types/shared7.d.ts",
+      "dist/types/shared8.d.ts",
       "dist/types/slim.d.ts",
       "dist/types/study.d.ts",
       "dist/whither.wasm",
@@ -83,6 +88,8 @@ test("the package", async (t) => {
       "package.json",
       "pointing.d.ts",
       "pointing.js",
+      "react.d.ts",
+      "react.js",
       "slim.d.ts",
       "slim.js",
       "study.d.ts",
@@ -135,6 +142,7 @@ test("the package", async (t) => {
       "pointing",
       "dom",
       "prediction",
+      "react",
       "study",
       "workerd",
       "pointing-workerd",
@@ -146,7 +154,7 @@ test("the package", async (t) => {
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction"]) {
+    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction", "react"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

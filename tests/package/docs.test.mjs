@@ -18,13 +18,14 @@ test("the front page of the interface's documentation", async (t) => {
   await t.test("leads to every entry of the package and to what matters first", () => {
     const links = [...content.matchAll(/href="([\w./-]+\.html)"/g)].map(([, link]) => link);
     for (const link of links) assert.ok(existsSync(join(pages, link)), `${link} leads nowhere`);
-    for (const entry of ["index", "dom", "pointing", "slim", "study"])
+    for (const entry of ["index", "dom", "react", "pointing", "slim", "study"])
       assert.ok(links.includes(`modules/${entry}.html`), `no link to ${entry}`);
     for (const name of [
       "classes/index.Predictor",
       "functions/index.pointerScenario",
       "functions/index.init",
       "functions/dom.watch",
+      "functions/react.useIntent",
       "functions/study.fit",
     ]) {
       assert.ok(links.includes(`${name}.html`), `no link to ${name}`);

@@ -25,7 +25,17 @@ test("the package's names", async (t) => {
 
   await t.test("are typed for every resolver of TypeScript (attw)", async () => {
     const { entrypoints, problems } = await checkPackage(createPackageFromTarballData(readFileSync(tarball)));
-    const names = [".", "./slim", "./pointing", "./dom", "./study", "./whither.wasm", "./pointing.wasm", "./package.json"];
+    const names = [
+      ".",
+      "./slim",
+      "./pointing",
+      "./dom",
+      "./react",
+      "./study",
+      "./whither.wasm",
+      "./pointing.wasm",
+      "./package.json",
+    ];
     assert.deepEqual(Object.keys(entrypoints), names);
     assert.deepEqual(
       problems.filter((problem) => !unavoidable(problem)),
