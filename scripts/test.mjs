@@ -1,4 +1,4 @@
-// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js dom package browser` runs the parts that are named,
+// `npm test`: all set-up and every test. `npm test -- scripts rust wasm js dom frameworks package browser` runs the parts that are named,
 // `npm test -- elsewhere` one that is run only by its name.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
@@ -43,6 +43,11 @@ const parts = {
     await ensureChromium();
     await build();
     await tests("node", nodeTests("tests/dom"));
+  },
+  async frameworks() {
+    await ensureChromium();
+    await build();
+    await tests("node", nodeTests("tests/frameworks"));
   },
   async package() {
     await ensureChromium();
