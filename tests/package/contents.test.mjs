@@ -27,7 +27,7 @@ test("the package", async (t) => {
   });
 
   await t.test("ships these files and no others, but for pages of documentation and the recipes that they link to", () => {
-    const isPage = (name) => /^(docs\/[\w-]+\.md|examples\/dom\/[\w-]+\.(html|js))$/.test(name);
+    const isPage = (name) => /^(docs\/[\w-]+\.md|examples\/(dom|frameworks)\/[\w/-]+\.(html|js|jsx|ts|vue|svelte))$/.test(name);
     assert.deepEqual(files.filter((name) => !isPage(name)).sort(), [
       "ARCHITECTURE.md",
       "CHANGELOG.md",
