@@ -3,13 +3,15 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { cpSync, mkdirSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { launch } from "../../scripts/chromium.mjs";
 import { incremental } from "../../scripts/incremental.mjs";
 import { capture, root, run } from "../../scripts/run.mjs";
-import { install, write } from "../package/support.mjs";
+import { movement } from "../browser/hand.mjs";
+import { mouse, REST } from "../browser/support.mjs";
+import { install, inTab, write } from "../package/support.mjs";
 import { assertEager, assertWatched, watching } from "../package/watched.mjs";
 
 /** A project with what package.json beside this file names, which stays from run to run. */
@@ -71,10 +73,58 @@ export function Watched() {
 }
 `;
 
-test("whither/dom in a client component of Next's app router", async (t) => {
+/** What docs/react.md has for Next: its provider and a plain element in components of the server, and a link of Next's own. */
+const [, intentLink] = readFileSync(join(root, "docs/react.md"), "utf8").match(/```jsx\n\/\/ app\/intent-link\.jsx\n(.*?)```/s);
+
+const harbour = {
+  "app/intent-link.jsx": intentLink,
+  "app/harbour/layout.jsx": `import { IntentProvider } from "whither/react";
+export default ({ children }) => <IntentProvider load="eager">{children}</IntentProvider>;
+`,
+  "app/harbour/page.jsx": `import { Intent } from "whither/react";
+import { IntentLink } from "../intent-link.jsx";
+const at = (left) => ({ position: "absolute", left, top: 100, width: 90, height: 40 });
+export default () => <>
+  <Intent id="left" href="#left" style={at(100)}>left</Intent>
+  <IntentLink id="right" href="/ports" style={at(900)}>right</IntentLink>
+</>;
+`,
+  "app/ports/page.jsx": "export default () => <h1>Ports</h1>;\n",
+};
+
+/** Next's own link is prefetched when the mouse is on its way to it, before it is there, and not before that. */
+async function assertLinked(browser, url) {
+  await inTab(browser, async (tab) => {
+    const prefetched = [];
+    tab.on("request", (request) => new URL(request.url()).pathname.startsWith("/ports") && prefetched.push(request.url()));
+    await tab.setViewportSize({ width: 1280, height: 800 });
+    await tab.goto(`${url}/harbour`);
+    await tab.waitForLoadState("networkidle");
+    const hand = await mouse(tab);
+    const [from, to] = [
+      { x: 300, y: 700 },
+      { x: 945, y: 120 },
+    ];
+    await hand.play([[0, from.x, from.y]]);
+    await hand.rest(REST);
+    assert.deepEqual(prefetched, []);
+    const way = movement(from, to, 40, { seed: 3 });
+    await hand.play(way.slice(0, Math.round(0.75 * way.length)));
+    await tab.waitForSelector("#right[data-predicted]");
+    assert.equal(await tab.locator("#right:hover").count(), 0, "the mouse is not there yet");
+    await tab.waitForLoadState("networkidle");
+    assert.ok(prefetched.length > 0, "it is prefetched");
+    await tab.locator("#right").click();
+    await tab.waitForSelector("h1");
+    assert.equal(await tab.locator("[data-predicted]").count(), 0);
+  });
+}
+
+test("whither/dom and whither/react in Next's app router", async (t) => {
   write(folder, "app/layout.js", layout);
   write(folder, "app/page.js", page);
   write(folder, "app/watched.js", component);
+  for (const [name, text] of Object.entries(harbour)) write(folder, name, text);
   const browser = await launch();
   t.after(() => browser.close());
   const next = "node_modules/next/dist/bin/next";
@@ -97,6 +147,7 @@ test("whither/dom in a client component of Next's app router", async (t) => {
       assert.ok(url, "Next has not started");
       await assertWatched(browser, `${url}/`);
       await assertEager(browser, `${url}/`);
+      await assertLinked(browser, url);
     });
   }
 });
