@@ -3,10 +3,7 @@ import assert from "node:assert/strict";
 import { before, describe, it } from "node:test";
 import { join } from "node:path";
 import { root } from "../../scripts/run.mjs";
-import { bundle, hosted, middle, nextFrame, open as openPage, REST, reach, reactAliases } from "./support.mjs";
-
-/** React's renderer asks for modules of Node. */
-const REQUIRE = { js: 'import { createRequire } from "node:module"; const require = createRequire("/");' };
+import { bundle, hosted, middle, nextFrame, open as openPage, REQUIRE, REST, reach, reactAliases } from "./support.mjs";
 
 /** In place of `whither/dom`: the same, with what is called kept in `watchers`. */
 const counting = {
@@ -26,7 +23,7 @@ const counting = {
           const calls = [];
           for (const name of ["add", "remove", "update", "set", "stop"]) {
             const own = watcher[name].bind(watcher);
-            watcher[name] = (...given) => (calls.push([name, given]), own(...given));
+            watcher[name] = (...given) => (calls.push([name, name === "update" ? Object.keys(given[0]) : given.length]), own(...given));
           }
           window.watchers.push({ watcher, calls });
           return watcher;
@@ -35,13 +32,8 @@ const counting = {
   },
 };
 
-/** The calls of all watchers: `[["add", 3], ...]`, with how many nodes they were about. */
-const calls = (page) =>
-  page.evaluate(() =>
-    watchers.map(({ calls }) =>
-      calls.map(([name, given]) => (name === "update" ? [name, Object.keys(given[0])] : [name, given.length])),
-    ),
-  );
+/** The calls of all watchers, `[["add", 3], ["update", ["threshold"]], ...]`: with how many nodes, or which options, they were about. */
+const calls = (page) => page.evaluate(() => watchers.map(({ calls }) => calls));
 
 /** The ids of what the one watcher that there is watches. */
 const watched = (page) => page.evaluate(() => watchers.at(-1).watcher.targets.map(({ id }) => id));
@@ -456,6 +448,93 @@ describe("whither/react", { concurrency: 2 }, () => {
         assert.deepEqual((await watched(page)).sort(), ["a", "b", "x"]);
         assert.equal(await page.evaluate(() => watchers.length), 1);
         await nextFrame(page);
+      });
+
+      it("what an Activity hides is not watched until it shows again", { skip: version < 19 }, async (t) => {
+        const { page } = await open(t);
+        await page.evaluate(async () => {
+          const { h, Activity, Intent, placed } = kit;
+          const button = (id) => h(Intent, { as: "button", id, key: id, style: placed(id) });
+          window.show = (mode) => kit.render([button("a"), h(Activity, { mode, key: "activity" }, button("b"))]);
+          await show("visible");
+        });
+        for (const [mode, ids] of [
+          ["visible", ["a", "b"]],
+          ["hidden", ["a"]],
+          ["visible", ["a", "b"]],
+        ]) {
+          await page.evaluate((mode) => show(mode), mode);
+          assert.deepEqual(await watched(page), ids, mode);
+        }
+      });
+
+      it("useWatcher: shapes that are no elements are added to it, and given to the provider's functions", async (t) => {
+        const { page, hand } = await open(t);
+        await page.evaluate(async () => {
+          const { h, Intent, IntentProvider, logged, placed, useEffect, useWatcher } = kit;
+          const port = { id: "port", bounds: () => ({ x: 840, y: 560, width: 80, height: 60 }) };
+          function Shapes() {
+            const watcher = useWatcher();
+            useEffect(() => {
+              watcher?.add(port);
+              return () => watcher?.remove(port);
+            }, [watcher]);
+            return null;
+          }
+          window.show = (shapes) =>
+            kit.render(
+              h(
+                IntentProvider,
+                logged("provider"),
+                h(Intent, { as: "button", id: "a", style: placed("a") }),
+                shapes && h(Shapes),
+              ),
+            );
+          await show(true);
+        });
+        assert.deepEqual((await watched(page)).sort(), ["a", "port"]);
+        await reach(page, hand, await middle(page, "#a"), { x: 880, y: 590, size: 60 });
+        await until(page, () => log.some(({ kind, target }) => kind === "intent" && target === "port"));
+        await page.evaluate(() => show(false));
+        assert.deepEqual(await watched(page), ["a"]);
+      });
+
+      it("rows that come and go are let go of, and nothing listens when all are gone", async (t) => {
+        const { page, hand } = await open(t);
+        const session = await page.context().newCDPSession(page);
+        const left = async () => {
+          for (let k = 0; k < 3; k++) await session.send("HeapProfiler.collectGarbage");
+          const { jsEventListeners } = await session.send("Memory.getDOMCounters");
+          const rows = await page.evaluate(() => rowRefs.filter((ref) => ref.deref() !== undefined).length);
+          return { listeners: jsEventListeners, rows };
+        };
+        await page.evaluate(async () => {
+          const { h, useIntent } = kit;
+          window.rowRefs = [];
+          const Row = () => h("li", { ref: useIntent({ onIntent: () => {} }).ref });
+          window.show = async (time, count) => {
+            await kit.render(
+              h(
+                "ul",
+                null,
+                Array.from({ length: count }, (_, k) => h(Row, { key: `${time} ${k}` })),
+              ),
+            );
+            rowRefs.push(...Array.from(document.querySelectorAll("li"), (row) => new WeakRef(row)));
+          };
+          await show(0, 0);
+        });
+        const before = await left();
+        for (let time = 1; time <= 8; time++) {
+          await page.evaluate((time) => show(time, 200), time);
+          if (time === 1) await reach(page, hand, { x: 600, y: 600, size: 40 }, { x: 300, y: 50, size: 40 });
+        }
+        assert.ok((await left()).listeners > before.listeners, "listeners are counted");
+        for (const time of [9, 10]) await page.evaluate((time) => show(time, 0), time);
+        const after = await left();
+        assert.equal(after.listeners, before.listeners);
+        // React itself remembers the last rows, and those before
+        assert.ok(after.rows <= 400, `${after.rows} of 1600 rows are left`);
       });
 
       it("is rendered on a server, where nothing is watched, and hydrated without a difference", async (t) => {

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { describe, it } from "node:test";
 import { join } from "node:path";
 import { root } from "../../scripts/run.mjs";
-import { bundle, folder, hosted, middle, open, REST, reach } from "./support.mjs";
+import { bundle, folder, hosted, middle, open, REQUIRE, REST, reach } from "./support.mjs";
 
 const recipes = join(root, "examples/frameworks");
 
@@ -26,23 +26,25 @@ const vue = compiled(/\.vue$/, (source, filename) => {
   return compileScript(parse(source, { filename }).descriptor, { id: "app", inlineTemplate: true }).content;
 });
 
-const svelte = compiled(/\.svelte$/, (source, filename) => {
-  const { compile } = installed("svelte/compiler");
-  const { js, warnings } = compile(source, { filename, generate: "client" });
-  assert.deepEqual(warnings, []);
-  return js.code;
-});
-
-const solid = compiled(/\.jsx$/, async (source, filename) => {
-  const presets = [installed("babel-preset-solid")];
-  const { code } = await installed("@babel/core").transformAsync(source, {
-    filename,
-    presets,
-    configFile: false,
-    babelrc: false,
+const svelte = (generate) =>
+  compiled(/\.svelte$/, (source, filename) => {
+    const { compile } = installed("svelte/compiler");
+    const { js, warnings } = compile(source, { filename, generate });
+    assert.deepEqual(warnings, []);
+    return js.code;
   });
-  return code;
-});
+
+const solid = (generate) =>
+  compiled(/\.jsx$/, async (source, filename) => {
+    const presets = [[installed("babel-preset-solid"), { generate }]];
+    const { code } = await installed("@babel/core").transformAsync(source, {
+      filename,
+      presets,
+      configFile: false,
+      babelrc: false,
+    });
+    return code;
+  });
 
 /** How each is mounted, and what its bundler needs. */
 const frameworks = {
@@ -64,13 +66,13 @@ const frameworks = {
     main: `import { mount } from "svelte";
       import App from "${recipes}/svelte/App.svelte";
       mount(App, { target: document.getElementById("root") });`,
-    options: { plugins: [svelte], conditions: ["browser", "svelte"] },
+    options: { plugins: [svelte("client")], conditions: ["browser", "svelte"] },
   },
   solid: {
     main: `import { render } from "solid-js/web";
       import { App } from "${recipes}/solid/App.jsx";
       render(App, document.getElementById("root"));`,
-    options: { plugins: [solid], conditions: ["browser"] },
+    options: { plugins: [solid("dom")], conditions: ["browser"] },
   },
   angular: {
     main: `import "@angular/compiler";
@@ -140,4 +142,38 @@ describe("the recipes", { concurrency: 2 }, () => {
       assert.equal(await page.locator("[data-intent]").count(), 2);
     });
   }
+
+  it("are rendered on a server, where nothing is watched: Vue, Svelte, Solid", async () => {
+    const rendered = async (main, options) => {
+      const server = { ...options, name: "server", platform: "node", conditions: ["node"], banner: REQUIRE };
+      const { "server.js": text } = await bundle(`${main}\n`, server);
+      return (await import(`data:text/javascript;base64,${Buffer.from(text).toString("base64")}`)).default;
+    };
+    const pages = {
+      vue: await rendered(
+        `import { createSSRApp } from "vue";
+        import { renderToString } from "vue/server-renderer";
+        import App from "${recipes}/vue/App.vue";
+        export default await renderToString(createSSRApp(App));`,
+        frameworks.vue.options,
+      ),
+      svelte: await rendered(
+        `import { render } from "svelte/server";
+        import App from "${recipes}/svelte/App.svelte";
+        export default render(App).body;`,
+        { plugins: [svelte("server")] },
+      ),
+      solid: await rendered(
+        `import { renderToString } from "solid-js/web";
+        import { App } from "${recipes}/solid/App.jsx";
+        export default renderToString(() => App());`,
+        { plugins: [solid("ssr")] },
+      ),
+    };
+    for (const [name, html] of Object.entries(pages)) {
+      const text = html.replace(/<[^>]*>/g, "").replace(/\s+/g, "");
+      assert.equal(text, "CowesRydeYarmouthOthersnone", `${name}: ${html}`);
+      assert.doesNotMatch(html, /data-intent/);
+    }
+  });
 });

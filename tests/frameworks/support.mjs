@@ -66,6 +66,9 @@ export async function bundle(program, { alias = {}, plugins = [], name = "progra
   return Object.fromEntries(outputFiles.map(({ path, text }) => [path.slice(join(folder, "site/").length), text]));
 }
 
+/** At the head of a bundle for Node: renderers on a server ask for its modules. */
+export const REQUIRE = { js: 'import { createRequire } from "node:module"; const require = createRequire("/");' };
+
 /** A browser and an address for pages, from before the first test of the group in which this is called until after its last. */
 export function hosted() {
   const site = {};
