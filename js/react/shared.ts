@@ -157,8 +157,10 @@ export class Shared {
           `unknown key "${key}": the watcher of a provider has the elements of its components`,
         );
       }
-      const isOwn = key in values && typeof value === "function";
-      if (value !== null && !isOwn) values[key] = typeof value === "function" ? this.#forward(key) : value;
+      const isOwn = key === "onIntent" || key === "onRelease";
+      if (typeof value === "function") values[key] = isOwn ? values[key] : this.#forward(key);
+      // what is absent must not hide these two
+      else if (value !== null && value !== undefined) values[key] = value;
     }
     return { ...values, target: this.#settingsOf };
   }
@@ -290,7 +292,7 @@ export class Shared {
   }
 }
 
-/** What holds for a target: where several components have it, the last one's options go first. */
+/** What holds for a target: where several components state the same option, that of the one which was attached last. */
 function settingsOf(entries: Iterable<Entry>): TargetOptions {
   const settings: Record<string, unknown> = {};
   for (const { options } of entries) {

@@ -1,9 +1,10 @@
 // whither/react in Chromium with React 18 and 19, under its real mouse: in StrictMode, with each call to whither/dom counted.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { before, describe, it } from "node:test";
 import { join } from "node:path";
 import { root } from "../../scripts/run.mjs";
-import { bundle, hosted, middle, nextFrame, open as openPage, REQUIRE, REST, reach, reactAliases } from "./support.mjs";
+import { bundle, hosted, inNode, middle, nextFrame, open as openPage, REST, reach, reactAliases } from "./support.mjs";
 
 /** In place of `whither/dom`: the same, with what is called kept in `watchers`. */
 const counting = {
@@ -197,11 +198,8 @@ describe("whither/react", { concurrency: 2 }, () => {
         // where an element has no function of its own, the provider's is called
         await reach(page, hand, c, b);
         await until(page, () => log.some(({ kind, name, target }) => kind === "intent" && name === "provider" && target === "b"));
-        const released = (await logOf(page)).filter(({ kind, target }) => kind === "release" && target === "c");
-        assert.deepEqual(
-          released.map(({ name }) => name),
-          ["own"],
-        );
+        const released = (await logOf(page, "c")).filter(({ kind }) => kind === "release");
+        assert.ok(released.length > 0 && released.every(({ name }) => name === "own"));
       });
 
       it("lists grow, are sorted and shrink: one call for each commit, and what is watched is what is there", async (t) => {
@@ -294,23 +292,25 @@ describe("whither/react", { concurrency: 2 }, () => {
         });
         const [a, c] = [await middle(page, "#a"), await middle(page, "#c")];
         await reach(page, hand, a, c);
-        await until(page, () => log.length === 2);
-        assert.deepEqual((await logOf(page)).map(({ name, data }) => [name, data]).sort(), [
-          ["inner", "inner"],
-          ["outer", "inner"],
-        ]);
-        assert.equal(await page.locator("#c").textContent(), "true");
+        await until(page, () => document.querySelector("#c").textContent === "true");
+        assert.deepEqual(
+          (await logOf(page))
+            .slice(-2)
+            .map(({ kind, name, data }) => [kind, name, data])
+            .sort(),
+          [
+            ["intent", "inner", "inner"],
+            ["intent", "outer", "inner"],
+          ],
+        );
         await page.evaluate(() => show(true));
         assert.equal(await page.locator("#c").textContent(), "false");
         await hand.press(c);
-        await until(page, () => log.length === 4);
+        await until(page, () => log.filter(({ pressed }) => pressed).length === 2);
         await page.evaluate(() => log.splice(0));
         await reach(page, hand, a, c);
         await until(page, () => log.length > 0);
-        assert.deepEqual(
-          (await logOf(page)).map(({ name }) => name),
-          ["outer"],
-        );
+        assert.ok((await logOf(page)).every(({ name }) => name === "outer"));
       });
 
       it("a component that goes while it is meant is given its release, and its signal aborts", async (t) => {
@@ -318,15 +318,17 @@ describe("whither/react", { concurrency: 2 }, () => {
         await page.evaluate(async () => {
           const { h, Intent, IntentProvider, logged, placed } = kit;
           const button = (id) => h(Intent, { as: "button", id, key: id, style: placed(id), ...logged(id) });
-          window.show = (...ids) => kit.render(h(IntentProvider, null, ids.map(button)));
+          const absent = { onIntent: undefined, onRelease: null, threshold: null, none: undefined };
+          window.show = (...ids) => kit.render(h(IntentProvider, absent, ids.map(button)));
           await show("a", "c");
         });
         await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"));
-        await until(page, () => log.some(({ target }) => target === "c"));
+        const isLast = (kind) => log.findLast(({ target }) => target === "c")?.kind === kind;
+        await until(page, isLast, "intent");
         await page.evaluate(() => show("a"));
-        await until(page, () => log.some(({ kind, target }) => kind === "release" && target === "c"));
+        await until(page, isLast, "release");
         assert.deepEqual(
-          (await logOf(page, "c")).map(({ kind, name, aborted, pressed }) => [kind, name, aborted ?? pressed]),
+          (await logOf(page, "c")).slice(-2).map(({ kind, name, aborted, pressed }) => [kind, name, aborted ?? pressed]),
           [
             ["intent", "c", true],
             ["release", "c", false],
@@ -414,13 +416,17 @@ describe("whither/react", { concurrency: 2 }, () => {
         });
         assert.equal(await page.locator("output").textContent(), "null");
         assert.deepEqual((await logOf(page)).at(-1), [null, 0]);
-        const before = (await logOf(page)).length;
+        await page.evaluate(() => log.splice(0));
         await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"), { share: 0.85 });
-        await until(page, () => document.querySelector("output").textContent === "c");
+        await until(page, () => log.some(([best]) => best === "c"));
         await hand.rest(REST);
         await until(page, () => document.querySelector("output").textContent === "null");
-        // twice each, as StrictMode has it; a movement has dozens of frames
-        assert.ok((await logOf(page)).length - before <= 8, JSON.stringify(await logOf(page)));
+        // each twice, as StrictMode has it
+        const values = (await logOf(page)).map(([best]) => best).filter((_, k) => k % 2 === 0);
+        assert.ok(
+          values.every((best, k) => best !== (k === 0 ? "before" : values[k - 1])),
+          `no value twice in a row: ${values}`,
+        );
       });
 
       it("what is suspended is not watched until it is back", async (t) => {
@@ -537,15 +543,38 @@ describe("whither/react", { concurrency: 2 }, () => {
         assert.ok(after.rows <= 400, `${after.rows} of 1600 rows are left`);
       });
 
+      it("the first example of docs/react.md asks for what the mouse is on its way to, and stops when it turns away", async (t) => {
+        const [, example] = readFileSync(join(root, "docs/react.md"), "utf8").match(/```jsx\n(.*?)```/s);
+        const program = `${example}
+          import { createRoot } from "react-dom/client";
+          const ports = ["Cowes", "Ryde", "Yarmouth"].map((name) => <Port key={name} id={name.toLowerCase()} name={name} />);
+          createRoot(document.getElementById("root")).render(ports);`;
+        const head = `<style>
+          a { position: absolute; left: 80px; top: 80px; width: 80px; height: 60px }
+          a:nth-child(2) { left: 840px } a:nth-child(3) { top: 560px } a.next { background: gold }
+        </style>`;
+        const { page, hand } = await openPage(t, site, await bundle(program, { alias: reactAliases(version) }), { head });
+        const asked = [];
+        await page.route("**/api/**", (route) => void asked.push(new URL(route.request().url()).pathname));
+        const failed = page.waitForEvent("requestfailed");
+        await page.waitForSelector("a");
+        const [from, to] = [await middle(page, "a:nth-child(1)"), await middle(page, "a:nth-child(2)")];
+        await reach(page, hand, from, to, { share: 0.85 });
+        await page.waitForSelector("a:nth-child(2).next");
+        assert.equal(asked.at(-1), "/api/ports/ryde");
+        await reach(page, hand, to, { x: 300, y: 650, size: 40 });
+        assert.match((await failed).failure().errorText, /ABORTED/);
+        await page.waitForFunction(() => document.querySelector(".next") === null);
+      });
+
       it("is rendered on a server, where nothing is watched, and hydrated without a difference", async (t) => {
         const options = { alias: reactAliases(version) };
         const application = join(root, "tests/frameworks/react-server.mjs");
         const onServer = `import { renderToString } from "react-dom/server"; import { createElement } from "react";
           import { App } from "${application}";
           export const html = renderToString(createElement(App));`;
-        const { "server.js": server } = await bundle(onServer, { ...options, name: "server", platform: "node", banner: REQUIRE });
         const warned = t.mock.method(console, "error", () => {});
-        const { html } = await import(`data:text/javascript;base64,${Buffer.from(server).toString("base64")}`);
+        const { html } = await inNode(onServer, options);
         assert.deepEqual(warned.mock.calls, [], "React has nothing to warn of");
         assert.match(html, /<a id="cowes" href="#cowes" class="other">Cowes<\/a>.*<p>not watching, resting<\/p>/);
 

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { describe, it } from "node:test";
 import { join } from "node:path";
 import { root } from "../../scripts/run.mjs";
-import { bundle, folder, hosted, middle, open, REQUIRE, REST, reach } from "./support.mjs";
+import { bundle, folder, hosted, inNode, middle, open, REST, reach } from "./support.mjs";
 
 const recipes = join(root, "examples/frameworks");
 
@@ -144,11 +144,7 @@ describe("the recipes", { concurrency: 2 }, () => {
   }
 
   it("are rendered on a server, where nothing is watched: Vue, Svelte, Solid", async () => {
-    const rendered = async (main, options) => {
-      const server = { ...options, name: "server", platform: "node", conditions: ["node"], banner: REQUIRE };
-      const { "server.js": text } = await bundle(`${main}\n`, server);
-      return (await import(`data:text/javascript;base64,${Buffer.from(text).toString("base64")}`)).default;
-    };
+    const rendered = async (main, options) => (await inNode(`${main}\n`, options)).default;
     const pages = {
       vue: await rendered(
         `import { createSSRApp } from "vue";

@@ -2,7 +2,10 @@
 import { after, before } from "node:test";
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync } from "node:fs";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import * as esbuild from "esbuild";
 import { launch } from "../../scripts/chromium.mjs";
 import { incremental } from "../../scripts/incremental.mjs";
@@ -40,7 +43,7 @@ const textual = (contents) => ({
   name: "textual",
   setup({ onResolve, onLoad }) {
     onResolve({ filter: /^text:/ }, ({ path }) => ({ path, namespace: "text" }));
-    onLoad({ filter: /./, namespace: "text" }, () => ({ contents, resolveDir: folder }));
+    onLoad({ filter: /./, namespace: "text" }, () => ({ contents, resolveDir: folder, loader: "jsx" }));
   },
 });
 
@@ -54,7 +57,8 @@ export async function bundle(program, { alias = {}, plugins = [], name = "progra
     alias: { ...whither, ...alias },
     plugins: [textual(program), ...plugins],
     bundle: true,
-    splitting: options.platform !== "node",
+    jsx: "automatic",
+    splitting: true,
     format: "esm",
     target: "chrome120",
     define: { "process.env.NODE_ENV": '"development"' },
@@ -66,8 +70,21 @@ export async function bundle(program, { alias = {}, plugins = [], name = "progra
   return Object.fromEntries(outputFiles.map(({ path, text }) => [path.slice(join(folder, "site/").length), text]));
 }
 
-/** At the head of a bundle for Node: renderers on a server ask for its modules. */
-export const REQUIRE = { js: 'import { createRequire } from "node:module"; const require = createRequire("/");' };
+/** Renderers on a server ask for modules of Node. */
+const banner = { js: 'import { createRequire } from "node:module"; const require = createRequire("/");' };
+
+/** Bundles a program for Node, runs it, and gives what it exports. */
+export async function inNode(program, options) {
+  const files = await bundle(program, { platform: "node", conditions: ["node"], banner, ...options });
+  const made = await mkdtemp(join(tmpdir(), "whither-server-"));
+  for (const [name, text] of Object.entries(files)) await writeFile(join(made, name), text);
+  await writeFile(join(made, "package.json"), '{ "type": "module" }');
+  try {
+    return await import(pathToFileURL(join(made, "program.js")));
+  } finally {
+    await rm(made, { recursive: true });
+  }
+}
 
 /** A browser and an address for pages, from before the first test of the group in which this is called until after its last. */
 export function hosted() {
