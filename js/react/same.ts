@@ -10,10 +10,15 @@ const DEPTH = 4;
 /** Whether two values are the same; lists and plain objects are where their items are. */
 export function same(one: unknown, other: unknown, depth = DEPTH): boolean {
   if (Object.is(one, other)) return true;
-  if (depth === 0 || !isPlain(one) || !isPlain(other) || Array.isArray(one) !== Array.isArray(other)) return false;
+  if (depth === 0 || !isPlain(one) || !isPlain(other) || lengthOf(one) !== lengthOf(other)) return false;
   // what is left out is as good as undefined
   const keys = new Set([...Object.keys(one), ...Object.keys(other)]);
   return [...keys].every((key) => same(one[key], other[key], depth - 1));
+}
+
+/** Of a list; null for what is none. */
+function lengthOf(value: unknown): number | null {
+  return Array.isArray(value) ? value.length : null;
 }
 
 /** A list, or an object without a class. */

@@ -109,7 +109,8 @@ async function assertLinked(browser, url) {
     await hand.rest(REST);
     assert.deepEqual(prefetched, []);
     const way = movement(from, to, 40, { seed: 3 });
-    await hand.play(way.slice(0, Math.round(0.75 * way.length)));
+    const isOver = ([, x, y]) => x > 890 && x < 1000 && y > 90 && y < 150;
+    await hand.play(way.slice(0, way.findIndex(isOver)));
     await tab.waitForSelector("#right[data-predicted]");
     assert.equal(await tab.locator("#right:hover").count(), 0, "the mouse is not there yet");
     await tab.waitForLoadState("networkidle");

@@ -85,7 +85,7 @@ describe("whither/react", { concurrency: 2 }, () => {
         await until(page, () => document.querySelector("#a").textContent.endsWith(" 1"));
         await page.evaluate(() => log.splice(0));
         const before = await page.evaluate(() => ({ ...renders }));
-        await reach(page, hand, from, to, { share: 0.85 });
+        await reach(page, hand, from, to);
         await until(page, () => document.querySelector("#c").textContent === "true 0");
         assert.deepEqual((await logOf(page)).at(-1), ["intent", "c", "pointer", 0]);
         await reach(page, hand, to, { x: 120, y: 640, size: 40 });
@@ -110,7 +110,7 @@ describe("whither/react", { concurrency: 2 }, () => {
           await page.evaluate(prepared, provider);
           assert.deepEqual((await calls(page))[k], [["add", 3]]);
           assert.deepEqual(await watched(page), ["a", "b", "c"]);
-          await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"), { share: 0.85 });
+          await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"));
           await until(page, () => document.querySelector("#c").dataset.predicted === "true");
           await page.evaluate(() => kit.unmount());
           assert.deepEqual((await calls(page))[k], [
@@ -417,7 +417,7 @@ describe("whither/react", { concurrency: 2 }, () => {
         assert.equal(await page.locator("output").textContent(), "null");
         assert.deepEqual((await logOf(page)).at(-1), [null, 0]);
         await page.evaluate(() => log.splice(0));
-        await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"), { share: 0.85 });
+        await reach(page, hand, await middle(page, "#a"), await middle(page, "#c"));
         await until(page, () => log.some(([best]) => best === "c"));
         await hand.rest(REST);
         await until(page, () => document.querySelector("output").textContent === "null");
@@ -559,7 +559,7 @@ describe("whither/react", { concurrency: 2 }, () => {
         const failed = page.waitForEvent("requestfailed");
         await page.waitForSelector("a");
         const [from, to] = [await middle(page, "a:nth-child(1)"), await middle(page, "a:nth-child(2)")];
-        await reach(page, hand, from, to, { share: 0.85 });
+        await reach(page, hand, from, to);
         await page.waitForSelector("a:nth-child(2).next");
         assert.equal(asked.at(-1), "/api/ports/ryde");
         await reach(page, hand, to, { x: 300, y: 650, size: 40 });

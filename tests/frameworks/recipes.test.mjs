@@ -128,13 +128,15 @@ describe("the recipes", { concurrency: 2 }, () => {
       const places = () => Promise.all([1, 2, 3].map((n) => middle(page, `nav > :nth-child(${n})`)));
       await shows("none");
       const [first, second, third] = await places();
-      await reach(page, hand, first, second, { share: 0.85 });
+      await page.evaluate(() => addEventListener("whither:intent", ({ detail }) => (window.reason = detail.reason)));
+      await reach(page, hand, first, second);
       await shows("Ryde");
+      assert.equal(await page.evaluate(() => window.reason), "pointer", "before the mouse was over it");
       await reach(page, hand, second, { x: 300, y: 650, size: 40 });
       await shows("none");
       await page.locator("button").click();
       await page.waitForFunction(() => document.querySelector("nav").textContent.replace(/\s/g, "") === "BembridgeCowes");
-      await reach(page, hand, second, first, { share: 0.85 });
+      await reach(page, hand, second, first);
       await shows("Bembridge");
       await reach(page, hand, first, third);
       await hand.rest(REST);

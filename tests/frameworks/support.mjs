@@ -135,10 +135,10 @@ export async function middle(page, selector) {
   return { x: x + width / 2, y: y + height / 2, size: Math.min(width, height) };
 }
 
-/** Moves a hand from one place to another, up to a share of the way. */
-export async function reach(page, hand, from, to, { share = 1, seed = 3 } = {}) {
+/** Moves a hand from one place to another. */
+export async function reach(page, hand, from, to) {
   await hand.play([[0, from.x, from.y]]);
   await hand.rest(REST);
-  await hand.play(movement(from, to, to.size, { seed, share }));
+  await hand.play(movement(from, to, to.size, { seed: 3 }));
   await nextFrame(page);
 }
