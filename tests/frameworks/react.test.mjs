@@ -83,6 +83,7 @@ describe("whither/react", { concurrency: 2 }, () => {
         await hand.play([[0, from.x, from.y]]);
         await hand.press(from);
         await until(page, () => document.querySelector("#a").textContent.endsWith(" 1"));
+        await page.evaluate(() => watchers[0].watcher.ready);
         await page.evaluate(() => log.splice(0));
         const before = await page.evaluate(() => ({ ...renders }));
         await reach(page, hand, from, to);
