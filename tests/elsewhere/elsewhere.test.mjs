@@ -131,24 +131,27 @@ test("whither/dom and whither/react in Next's app router", async (t) => {
   const next = "node_modules/next/dist/bin/next";
   const env = { NEXT_TELEMETRY_DISABLED: "1" };
   for (const bundler of ["turbopack", "webpack"]) {
-    await t.test(`by ${bundler}: the core is a file of its own that comes later`, async (t) => {
-      const { code, output } = await capture("node", [next, "build", `--${bundler}`], { cwd: folder, env });
-      assert.equal(code, 0, output);
-      const host = spawn("node", [next, "start", "--port", "0"], { cwd: folder, env: { ...process.env, ...env } });
-      const ended = once(host, "exit");
-      t.after(() => {
-        host.kill();
-        return ended;
-      });
-      let url;
-      for await (const line of createInterface({ input: host.stdout })) {
-        url ??= line.match(/http:\/\/localhost:\d+/)?.[0];
-        if (line.includes("Ready")) break;
-      }
-      assert.ok(url, "Next has not started");
-      await assertWatched(browser, `${url}/`);
-      await assertEager(browser, `${url}/`);
-      await assertLinked(browser, url);
-    });
+    await t.test(
+      `by ${bundler}: the core is a file of its own that comes later, and a link of Next is prefetched when it is meant`,
+      async (t) => {
+        const { code, output } = await capture("node", [next, "build", `--${bundler}`], { cwd: folder, env });
+        assert.equal(code, 0, output);
+        const host = spawn("node", [next, "start", "--port", "0"], { cwd: folder, env: { ...process.env, ...env } });
+        const ended = once(host, "exit");
+        t.after(() => {
+          host.kill();
+          return ended;
+        });
+        let url;
+        for await (const line of createInterface({ input: host.stdout })) {
+          url ??= line.match(/http:\/\/localhost:\d+/)?.[0];
+          if (line.includes("Ready")) break;
+        }
+        assert.ok(url, "Next has not started");
+        await assertWatched(browser, `${url}/`);
+        await assertEager(browser, `${url}/`);
+        await assertLinked(browser, url);
+      },
+    );
   }
 });
