@@ -1,4 +1,4 @@
-// The program of the pages of react.test.mjs: React and whither/react in `kit`, and a log of what is called.
+// The program of the pages of react.mjs: React and whither/react in `kit`, and a log of what is called.
 import * as React from "react";
 import { flushSync } from "react-dom";
 import { createRoot, hydrateRoot } from "react-dom/client";
