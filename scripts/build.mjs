@@ -21,7 +21,7 @@ const bundles = [
 const pages = ["dom", "react"];
 
 /** For resolvers that do not read `exports`: files next to package.json, where they look for `whither/slim` and the others. */
-const stubs = ["slim", "pointing", "study", ...pages];
+const stubs = ["slim", "pointing", "study", "testing", ...pages];
 
 /**
  * The syntax: what README promises (Chrome and Edge 94, Firefox 113, Safari 16.4, Node 20.19), and no static blocks, which Metro
@@ -95,6 +95,7 @@ async function bundle() {
       plugins: plugins(module),
     });
   }
+  await esbuild.build({ ...options, entryPoints: ["js/entries/testing.ts"], plugins: plugins("pointing") });
   await bundleForPages();
 }
 

@@ -44,13 +44,14 @@ const RUST: [(&str, &[&str]); 16] = [
 const METHODS: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Each folder of js/ and the others that it may import.
-const JAVASCRIPT: [(&str, &[&str]); 6] = [
+const JAVASCRIPT: [(&str, &[&str]); 7] = [
     ("core", &[]),
     ("pointing", &["core"]),
     ("study", &["core"]),
     ("dom", &["core"]),
     ("react", &[]),
-    ("entries", &["core", "pointing", "dom", "react", "study"]),
+    ("testing", &["core"]),
+    ("entries", &["core", "pointing", "dom", "react", "testing", "study"]),
 ];
 
 /// Folders that import what `whither/dom` exports, as `#dom`.

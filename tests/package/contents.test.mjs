@@ -64,6 +64,8 @@ test("the package", async (t) => {
       "dist/study.js.map",
       "dist/study.wasm",
       "dist/study.wasm.d.ts",
+      "dist/testing.js",
+      "dist/testing.js.map",
       "dist/types/dom.d.ts",
       "dist/types/index.d.ts",
       "dist/types/pointing.d.ts",
@@ -78,6 +80,7 @@ test("the package", async (t) => {
       "dist/types/shared8.d.ts",
       "dist/types/slim.d.ts",
       "dist/types/study.d.ts",
+      "dist/types/testing.d.ts",
       "dist/whither.wasm",
       "dist/whither.wasm.d.ts",
       "dist/workerd.js",
@@ -94,6 +97,8 @@ test("the package", async (t) => {
       "slim.js",
       "study.d.ts",
       "study.js",
+      "testing.d.ts",
+      "testing.js",
     ]);
   });
 
@@ -143,6 +148,7 @@ test("the package", async (t) => {
       "dom",
       "prediction",
       "react",
+      "testing",
       "study",
       "workerd",
       "pointing-workerd",
@@ -154,7 +160,7 @@ test("the package", async (t) => {
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction", "react"]) {
+    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction", "react", "testing"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

@@ -122,7 +122,8 @@ test("in Node", async (t) => {
       // what Node's own loader reads of the global object while it loads
       await import("./nothing.mjs");
       const node = touched.splice(0);
-      for (const entry of ["whither", "whither/slim", "whither/pointing", "whither/dom", "whither/study"]) await import(entry);
+      const entries = ["whither", "whither/slim", "whither/pointing", "whither/dom", "whither/testing", "whither/study"];
+      for (const entry of entries) await import(entry);
       for (const [name, descriptor] of present) if (descriptor.configurable) Object.defineProperty(globalThis, name, descriptor);
       console.log(JSON.stringify({ watched: present.size, touched: touched.filter((name) => !node.includes(name)) }));`;
     write(folder, "nothing.mjs", "export {};");

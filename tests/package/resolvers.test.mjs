@@ -31,6 +31,7 @@ test("the package's names", async (t) => {
       "./pointing",
       "./dom",
       "./react",
+      "./testing",
       "./study",
       "./whither.wasm",
       "./pointing.wasm",
@@ -54,7 +55,7 @@ test("the package's names", async (t) => {
   await t.test("are found without exports, and all that they name predicts", async () => {
     const text = `import { init, Predictor, pointerScenario } from "whither";
       import * as slim from "whither/slim"; import * as pointing from "whither/pointing"; import { watch } from "whither/dom";
-      import { fit } from "whither/study";
+      import { fit } from "whither/study"; import { hand } from "whither/testing";
       const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
       const best = ({ Predictor, pointerScenario, PointerPredictor }) => {
         const predictor = PointerPredictor ? new PointerPredictor(icons) : new Predictor(pointerScenario(icons));
@@ -65,6 +66,7 @@ test("the package's names", async (t) => {
         ...[{ Predictor, pointerScenario }, slim, pointing].map(best),
         await fit([], {}).catch(({ code }) => code),
         await watch("a", { load: "eager" }).ready.then(() => "watched"),
+        hand({ x: 0, y: 0 }, { x: 9, y: 9 }).length > 1,
       ]);`;
     write(folder, "main.js", text);
     write(folder, "site/index.html", page('<script type="module" src="./main.js"></script>'));
@@ -80,6 +82,6 @@ test("the package's names", async (t) => {
     assert.ok(!result.hasErrors(), result.toString());
     const browser = await launch();
     t.after(() => browser.close());
-    assert.deepEqual(await inBrowser(browser, join(folder, "site")), ["900", "900", "900", "out-of-range", "watched"]);
+    assert.deepEqual(await inBrowser(browser, join(folder, "site")), ["900", "900", "900", "out-of-range", "watched", true]);
   });
 });

@@ -33,7 +33,7 @@ test("the shipped files", async (t) => {
   await t.test("are the entries and what they import", () => {
     assert.ok(scripts.length >= 12, scripts.join());
     const atTop = readdirSync(installed).filter((name) => name.endsWith(".js"));
-    assert.deepEqual(atTop.sort(), ["dom.js", "pointing.js", "react.js", "slim.js", "study.js"]);
+    assert.deepEqual(atTop.sort(), ["dom.js", "pointing.js", "react.js", "slim.js", "study.js", "testing.js"]);
   });
 
   await t.test("stay the same when they are translated for the oldest engines that are promised", async () => {
