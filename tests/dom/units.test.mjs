@@ -1,4 +1,4 @@
-// The rooms of whither/dom without a browser: js/dom/**/*.test.ts.
+// The rooms of whither/dom and of what is beside it, without a browser: their **/*.test.ts.
 import { runUnits } from "../units.mjs";
 
-await runUnits("js/dom");
+for (const folder of ["js/dom", "js/testing"]) await runUnits(folder);
