@@ -2,7 +2,7 @@
 import { watch, type Outcome, type Release, type Snapshot, type Watcher, type WatchOptions } from "whither/dom";
 import { DEFAULTS, isSame, NONE, type Settings } from "./belief/settings.ts";
 import { GHOST, type Stage } from "./ghost.ts";
-import type { Point } from "./hand.ts";
+import type { Point } from "./geometry.ts";
 import { History } from "./history.ts";
 import type { Press } from "./press.ts";
 import type { ProbabilityList } from "./view/probabilities.ts";

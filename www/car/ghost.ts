@@ -2,7 +2,8 @@
  * While nobody moves, a ghost shows what the page is for: an arrow with a trail that moves slowly enough to be followed. Its
  * movements are pointer events of a type of their own, so that what follows them need not be what follows the visitor.
  */
-import { reach, seeded, type Box, type Hand, type Point } from "./hand.ts";
+import { hand, random, type Sample as HandSample } from "whither/testing";
+import type { Box, Point } from "./geometry.ts";
 import { trail } from "./view/trail.ts";
 
 /** The `pointerType` of its events. */
@@ -16,18 +17,18 @@ const AGAIN = 15;
 const DWELL = 0.35;
 const PAUSE = 1;
 
-/** Its movements take this many times as long as an unhurried hand's. */
-const PACE = 1.6;
-
-/** It is sampled like a common mouse, however seldom the page is drawn (seconds). */
-const SAMPLING = 0.01;
+/**
+ * A slow and steady hand that can be followed, sampled like a common mouse, however seldom the page is drawn. What it goes to is a spot
+ * beside the icon's drawing (px).
+ */
+const MANNER = { pace: 5.5, noise: 0.02, size: 6, rate: 100, resolution: 0, dwell: DWELL };
 
 /** Seconds and px that the trail is long and wide. */
 const TRAIL = 0.45;
 const TRAIL_WIDTH = 7;
 
 /** The arrow points to the right of the icon's drawing, so that it does not hide it (shares of a box). */
-const ASIDE = { from: 0.2, to: 0.24 };
+const ASIDE = { from: 0.23, to: 0.26 };
 
 /** Seconds on the page's clock, and px of the viewport. */
 interface Sample extends Point {
@@ -65,7 +66,9 @@ class GhostEvent extends PointerEvent {
 /** Plays whenever nothing was heard of a visitor for a while, until the returned function is called. */
 export function haunt(parts: GhostParts, stage: Stage): () => void {
   const controller = new AbortController();
-  const random = seeded(21);
+  // the same movements for everybody
+  const next = random(21);
+  let seed = 0;
   let frame = 0;
   let timer = 0;
   let due = performance.now() + FIRST * 1000;
@@ -114,32 +117,34 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
     const far = targets
       .map((_, index) => index)
       .filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
-    const target = targets[far[Math.floor(random() * far.length)] ?? 0];
+    const target = targets[far[Math.floor(next() * far.length)] ?? 0];
     if (!target || !stage.visible()) {
       vanish();
       return;
     }
-    const aside = ASIDE.from + (ASIDE.to - ASIDE.from) * random();
-    const aim = { x: target.x + aside * target.width, y: target.y + 0.1 * (random() - 0.5) * target.height };
-    follow(reach(from, aim, Math.min(target.width, target.height), random, PACE), set);
+    const aside = ASIDE.from + (ASIDE.to - ASIDE.from) * next();
+    const aim = { x: target.x + aside * target.width, y: target.y + 0.1 * (next() - 0.5) * target.height };
+    seed += 1;
+    follow(hand({ x: from.x, y: from.y }, aim, { ...MANNER, seed }), set);
   };
 
-  const follow = (hand: Hand, set: number) => {
-    let sampled = 0;
+  /** The last of the samples is the press. */
+  const follow = (samples: readonly HandSample[], set: number) => {
+    let sent = 0;
     let pressed = false;
+    const [end = 0, x = 0, y = 0] = samples.at(-1) ?? [];
     const step = (now: number) => {
       const elapsed = (now - set) / 1000;
-      const samples: Sample[] = [];
-      for (; sampled <= Math.min(elapsed, hand.duration); sampled += SAMPLING) {
-        samples.push({ time: set / 1000 + sampled, ...hand.at(sampled) });
-      }
-      dispatch("pointermove", samples);
-      places.push(...samples);
+      const until = samples.findIndex(([time], index) => time > elapsed || index === samples.length - 1);
+      const passed = samples.slice(sent, until).map(([time, x, y]) => ({ time: set / 1000 + time, x, y }));
+      sent = until;
+      dispatch("pointermove", passed);
+      places.push(...passed);
       show(now / 1000);
-      if (!pressed && elapsed > hand.duration + DWELL) {
+      if (!pressed && elapsed > end) {
         pressed = true;
-        dispatch("pointerdown", [{ time: now / 1000, ...hand.at(hand.duration) }]);
-      } else if (elapsed > hand.duration + DWELL + PAUSE) {
+        dispatch("pointerdown", [{ time: now / 1000, x, y }]);
+      } else if (elapsed > end + PAUSE) {
         play(now);
         return;
       }

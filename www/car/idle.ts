@@ -3,18 +3,16 @@
  * load the core, so that the two share it.
  */
 import { PointerPredictor } from "whither/pointing";
+import { hand } from "whither/testing";
 import { DEFAULTS, NONE } from "./belief/settings.ts";
-import { reach, seeded, type Box } from "./hand.ts";
+import type { Box } from "./geometry.ts";
 import type { Moment } from "./history.ts";
 import type { Press } from "./press.ts";
 
 export { init } from "whither/pointing";
 
-/** Samples a second. */
-const RATE = 100;
-
-/** Seconds from the arrival to the press. */
-const DWELL = 0.1;
+/** A steady hand. */
+const MANNER = { seed: 5, pace: 3, noise: 0.3, rate: 100, resolution: 0, dwell: 0.1 };
 
 /** From one of the boxes to another, which is pressed. */
 export function exampleOf(
@@ -25,18 +23,19 @@ export function exampleOf(
 ): { moments: readonly Moment[]; press: Press } | null {
   const [start, end, label] = [boxes[from], boxes[to], labels[to]];
   if (!start || !end || label === undefined) return null;
-  const hand = reach(start, end, Math.min(end.width, end.height), seeded(5));
+  const size = Math.min(end.width, end.height);
+  const samples = hand({ x: start.x, y: start.y }, { x: end.x, y: end.y }, { ...MANNER, size });
   const predictor = new PointerPredictor(
     boxes.map((box, index) => ({ id: String(index), ...box })),
     { none: NONE },
   );
-  const moments = Array.from({ length: Math.floor(hand.duration * RATE) }, (_, step): Moment => {
-    const { x, y } = hand.at(step / RATE);
-    predictor.observe(step / RATE, [x, y]);
-    return { time: step / RATE, probabilities: predictor.probabilities() };
+  // the last is the press
+  const moments = samples.slice(0, -1).map(([time, x, y]): Moment => {
+    predictor.observe(time, [x, y]);
+    return { time, probabilities: predictor.probabilities() };
   });
   predictor.free();
-  const time = hand.duration + DWELL;
+  const time = samples.at(-1)?.[0] ?? 0;
   const lit = ({ probabilities }: Moment, index: number) => (probabilities[index] ?? 0) >= DEFAULTS.threshold;
   const first = moments.find((moment) => lit(moment, to))?.time;
   const mistaken = labels.find((_, index) => index !== from && index !== to && moments.some((moment) => lit(moment, index)));

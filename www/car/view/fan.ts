@@ -1,7 +1,7 @@
 /** What is expected, drawn in light: a path to each of the leading three, and the forecast's one-deviation ellipse once it is informative. */
 import type { Gaussian } from "whither/dom";
 import { ellipse, isInformative } from "../../shared/ellipse.ts";
-import type { Point } from "../hand.ts";
+import type { Point } from "../geometry.ts";
 
 /** What is expected, in px of the viewport. */
 export interface Outlook {

@@ -1,6 +1,6 @@
 /** The car's screen: 21 icons that shine as bright as they are probable. */
 import { createElement } from "lucide";
-import type { Box, Point } from "../hand.ts";
+import type { Box, Point } from "../geometry.ts";
 import type { Place } from "../destinations.ts";
 import { destinationOf } from "./walk.ts";
 

@@ -1,5 +1,5 @@
 /** The trail of the ghost: as wide as the pointer was near in time. */
-import type { Point } from "../hand.ts";
+import type { Point } from "../geometry.ts";
 
 /** The outline of a tail that narrows to a point, as the `d` of an SVG path: from the oldest place to the newest, `width` px wide there. */
 export function trail(places: readonly Point[], width: number): string {
