@@ -1,6 +1,6 @@
 // The page on which benches/dom.mjs measures what watching costs: a grid of targets, and a pointer at 1 kHz.
 import { ForesightManager } from "js.foresight";
-import { movement, random } from "../tests/browser/hand.mjs";
+import { hand, random } from "whither/testing";
 
 /** How targets are watched: each returns what tells whether it really works. */
 const watchers = {
@@ -74,6 +74,9 @@ function dispatch(samples) {
   );
 }
 
+/** A hand that crosses the window in about a second, at 1 kHz, and goes on at once. */
+const MANNER = { size: 30, rate: 1000, pace: 5, noise: 0.1, dwell: 0, resolution: 0 };
+
 /** From one place to another for so many seconds, with no rest between; returns what the watcher has done meanwhile. */
 globalThis.wander = async (seconds) => {
   const next = random(11);
@@ -81,7 +84,7 @@ globalThis.wander = async (seconds) => {
   const samples = [];
   for (let from = place(), time = 0; time < seconds; ) {
     const to = place();
-    const part = movement(from, to, 30, { seed: samples.length, rate: 1000 });
+    const part = hand(from, to, { ...MANNER, seed: samples.length });
     samples.push(...part.map(([at, x, y]) => [time + at, x, y]));
     time += part.at(-1)[0] + 0.001;
     from = to;

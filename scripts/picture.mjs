@@ -1,8 +1,6 @@
 // Takes the README's picture from the built page, in the middle of a movement: docs/demo.webp.
 import { mkdir, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
-import { movement } from "../tests/browser/hand.mjs";
-import { launch, middles, mouse, open, read, serve } from "../tests/browser/support.mjs";
 import { buildDemo } from "./build-demo.mjs";
 import { ensureChromium } from "./chromium.mjs";
 import { main } from "./run.mjs";
@@ -15,6 +13,9 @@ const LARGEST = 200_000;
 await main(import.meta.url, async () => {
   await buildDemo();
   await ensureChromium();
+  // they need what was built
+  const { movement } = await import("../tests/browser/hand.mjs");
+  const { launch, middles, mouse, open, read, serve } = await import("../tests/browser/support.mjs");
   const host = await serve();
   const browser = await launch();
   const { page, problems } = await open(browser, host.url, { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 2 });
