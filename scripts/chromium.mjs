@@ -14,7 +14,7 @@ const places = [
 ];
 
 /** The path of the browser; null where there is none. */
-async function find() {
+export async function find() {
   if (process.env.CHROME) return process.env.CHROME;
   for (const program of programs) {
     const path = process.platform === "win32" ? null : await answer("which", [program]);

@@ -1,4 +1,4 @@
-// The packed package with what is too large to be installed with the rest: Next, by both of its bundlers, Bun and Deno.
+// The packed package with what is too large to be installed with the rest: Next, by both of its bundlers, Bun, Deno, and test runners.
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -13,6 +13,7 @@ import { movement } from "../browser/hand.mjs";
 import { mouse, REST } from "../browser/support.mjs";
 import { install, inTab, write } from "../package/support.mjs";
 import { assertEager, assertWatched, watching } from "../package/watched.mjs";
+import { testRunners } from "./testing.mjs";
 
 /** A project with what package.json beside this file names, which stays from run to run. */
 const folder = join(root, "target/elsewhere");
@@ -155,3 +156,5 @@ test("whither/dom and whither/react in Next's app router", async (t) => {
     );
   }
 });
+
+testRunners(folder);
