@@ -160,7 +160,18 @@ test("the package", async (t) => {
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction", "react", "testing"]) {
+    for (const name of [
+      "index",
+      "shared",
+      "slim",
+      "workerd",
+      "pointing",
+      "pointing-workerd",
+      "dom",
+      "prediction",
+      "react",
+      "testing",
+    ]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);
