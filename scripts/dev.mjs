@@ -7,7 +7,18 @@ import { Failure, main, root } from "./run.mjs";
 import { wantedPort } from "./serve.mjs";
 
 /** What the package is made of. */
-const sources = ["src", "kernel", "js/core", "js/dom", "js/entries", "js/pointing", "js/study", "js/testing", "Cargo.toml"];
+const sources = [
+  "src",
+  "kernel",
+  "js/core",
+  "js/dom",
+  "js/entries",
+  "js/pointing",
+  "js/study",
+  "js/links",
+  "js/testing",
+  "Cargo.toml",
+];
 
 /** Milliseconds without a change before a build: an editor writes a file in several steps. */
 const QUIET = 100;

@@ -22,6 +22,7 @@ const parts = [
   { name: "what its `reasons.keyboard` loads", files: ["keyboard.js"] },
   { name: "`whither/react`, besides `whither/dom` and React", files: ["react.js"], budget: budgets.react },
   { name: "`whither/testing`", files: ["testing.js", "error.js"] },
+  { name: "`whither/links`, besides `whither/dom`", files: ["links.js"] },
   { name: "`whither`, as it is packed", files: ["index.js", "shared.js", "error.js", "bytes.js"], budget: budgets.whither },
   { name: "of it the JavaScript", files: ["index.js", "shared.js", "error.js"] },
   { name: "its file of WebAssembly", files: ["whither.wasm"] },

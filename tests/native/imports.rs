@@ -44,18 +44,19 @@ const RUST: [(&str, &[&str]); 16] = [
 const METHODS: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Each folder of js/ and the others that it may import.
-const JAVASCRIPT: [(&str, &[&str]); 7] = [
+const JAVASCRIPT: [(&str, &[&str]); 8] = [
     ("core", &[]),
     ("pointing", &["core"]),
     ("study", &["core"]),
     ("dom", &["core"]),
+    ("links", &["core"]),
     ("react", &[]),
     ("testing", &["core"]),
-    ("entries", &["core", "pointing", "dom", "react", "testing", "study"]),
+    ("entries", &["core", "pointing", "dom", "links", "react", "testing", "study"]),
 ];
 
-/// Folders that import what `whither/dom` exports, as `#dom`.
-const BESIDE_DOM: [&str; 1] = ["react"];
+/// Folders of entries beside `whither/dom`: they import its public names, as `#dom`.
+const BESIDE_DOM: [&str; 2] = ["links", "react"];
 
 /// Folders of which another may import types alone: its code comes later, by `import()`.
 const TYPES: [(&str, &str); 1] = [("dom", "pointing")];

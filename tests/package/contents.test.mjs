@@ -42,6 +42,8 @@ test("the package", async (t) => {
       "dist/index.js",
       "dist/index.js.map",
       "dist/keyboard.js",
+      "dist/links.js",
+      "dist/links.js.map",
       "dist/pointing-bytes.js",
       "dist/pointing-workerd.js",
       "dist/pointing-workerd.js.map",
@@ -68,6 +70,7 @@ test("the package", async (t) => {
       "dist/testing.js.map",
       "dist/types/dom.d.ts",
       "dist/types/index.d.ts",
+      "dist/types/links.d.ts",
       "dist/types/pointing.d.ts",
       "dist/types/react.d.ts",
       "dist/types/shared.d.ts",
@@ -88,6 +91,8 @@ test("the package", async (t) => {
       "docs/demo.webp",
       "dom.d.ts",
       "dom.js",
+      "links.d.ts",
+      "links.js",
       "package.json",
       "pointing.d.ts",
       "pointing.js",
@@ -146,6 +151,7 @@ test("the package", async (t) => {
       "slim",
       "pointing",
       "dom",
+      "links",
       "prediction",
       "react",
       "testing",
@@ -160,18 +166,8 @@ test("the package", async (t) => {
   });
 
   await t.test("carries what learns in whither/study alone", () => {
-    for (const name of [
-      "index",
-      "shared",
-      "slim",
-      "workerd",
-      "pointing",
-      "pointing-workerd",
-      "dom",
-      "prediction",
-      "react",
-      "testing",
-    ]) {
+    const shipped = ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction"];
+    for (const name of [...shipped, "links", "react", "testing"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

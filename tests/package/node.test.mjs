@@ -99,6 +99,15 @@ test("in Node", async (t) => {
     });
   }
 
+  await t.test("whither/links: links() does nothing on a server", async () => {
+    const text = `import { links } from "whither/links";
+      const ahead = links({ selector: "nav a", ignore: /admin/ });
+      const { requested, lead } = ahead.stats();
+      ahead.stop();
+      console.log(JSON.stringify([requested, lead, ahead.excluded({}), ahead.watcher.none]));`;
+    assert.deepEqual(await inNode(folder, "links.mjs", text), [0, null, null, 1]);
+  });
+
   await t.test("an import does nothing: no request, no compilation, nothing of the platform is used or made", async () => {
     // The language itself may be used: classes are made, and an error is one that extends another.
     const language = [
@@ -122,8 +131,8 @@ test("in Node", async (t) => {
       // what Node's own loader reads of the global object while it loads
       await import("./nothing.mjs");
       const node = touched.splice(0);
-      const entries = ["whither", "whither/slim", "whither/pointing", "whither/dom", "whither/testing", "whither/study"];
-      for (const entry of entries) await import(entry);
+      const entries = ["", "/slim", "/pointing", "/dom", "/links", "/testing", "/study"];
+      for (const entry of entries) await import(`whither$entry`);
       for (const [name, descriptor] of present) if (descriptor.configurable) Object.defineProperty(globalThis, name, descriptor);
       console.log(JSON.stringify({ watched: present.size, touched: touched.filter((name) => !node.includes(name)) }));`;
     write(folder, "nothing.mjs", "export {};");

@@ -32,6 +32,7 @@ test("the package's names", async (t) => {
       "./dom",
       "./react",
       "./testing",
+      "./links",
       "./study",
       "./whither.wasm",
       "./pointing.wasm",
@@ -56,6 +57,7 @@ test("the package's names", async (t) => {
     const text = `import { init, Predictor, pointerScenario } from "whither";
       import * as slim from "whither/slim"; import * as pointing from "whither/pointing"; import { watch } from "whither/dom";
       import { fit } from "whither/study"; import { hand } from "whither/testing";
+      import { links } from "whither/links";
       const icons = [100, 500, 900].map((x) => ({ id: String(x), x, y: 100, width: 80, height: 80 }));
       const best = ({ Predictor, pointerScenario, PointerPredictor }) => {
         const predictor = PointerPredictor ? new PointerPredictor(icons) : new Predictor(pointerScenario(icons));
@@ -67,6 +69,7 @@ test("the package's names", async (t) => {
         await fit([], {}).catch(({ code }) => code),
         await watch("a", { load: "eager" }).ready.then(() => "watched"),
         hand({ x: 0, y: 0 }, { x: 9, y: 9 }).length > 1,
+        await links({ load: "eager" }).watcher.ready.then(() => "ahead"),
       ]);`;
     write(folder, "main.js", text);
     write(folder, "site/index.html", page('<script type="module" src="./main.js"></script>'));
@@ -82,6 +85,14 @@ test("the package's names", async (t) => {
     assert.ok(!result.hasErrors(), result.toString());
     const browser = await launch();
     t.after(() => browser.close());
-    assert.deepEqual(await inBrowser(browser, join(folder, "site")), ["900", "900", "900", "out-of-range", "watched", true]);
+    assert.deepEqual(await inBrowser(browser, join(folder, "site")), [
+      "900",
+      "900",
+      "900",
+      "out-of-range",
+      "watched",
+      true,
+      "ahead",
+    ]);
   });
 });

@@ -88,6 +88,7 @@ new Predictor(scenario).observe("0", [1, 2]);
 /** A page's program: for users who have the DOM. */
 const onPage = `
 import { watch, WhitherError, type Intent, type Snapshot, type VirtualTarget, type Watcher, type WatchOptions } from "whither/dom";
+import { links as ahead, type Exclusion, type LinksStats } from "whither/links";
 import { PointerPredictor } from "whither/pointing";
 import type { Track } from "whither/study";
 
@@ -128,6 +129,18 @@ watch<VirtualTarget>(shape, {
   predictor: (targets, { none, constants }) => new PointerPredictor(targets, { none, constants }),
   signal: AbortSignal.abort(),
 });
+const loading = ahead({
+  ignore: [/admin/, ".slow", (url, link) => url.searchParams.has("draft") && link.id === "draft"],
+  limit: { running: 1 },
+  prerender: { threshold: 0.97 },
+  mechanism: async ({ url, signal }) => fetch(url, { signal }),
+  target: (link) => ({ prior: link.matches("nav *") ? 2 : 1 }),
+  onPrefetch: ({ url, mechanism, probability }) => console.log(url, mechanism, probability),
+});
+export const stats: LinksStats = loading.stats();
+export const excluded: Exclusion | null = loading.excluded(loading.watcher.targets[0]!);
+// @ts-expect-error: a mechanism is one of three, or a function
+ahead({ mechanism: "own" });
 // @ts-expect-error: there is no such option
 watch("a", { treshold: 0.8 });
 // @ts-expect-error: there is no such reason
