@@ -14,7 +14,7 @@ const places = [
 ];
 
 /** The path of the browser; null where there is none. */
-export async function find() {
+export async function pathOfChromium() {
   if (process.env.CHROME) return process.env.CHROME;
   for (const program of programs) {
     const path = process.platform === "win32" ? null : await answer("which", [program]);
@@ -25,7 +25,7 @@ export async function find() {
 
 /** Installs Chromium where that can be done without asking: as root on Debian and its kin. */
 export async function ensureChromium() {
-  if ((await find()) !== null) return;
+  if ((await pathOfChromium()) !== null) return;
   if (process.getuid?.() === 0 && (await answer("apt-get", ["--version"])) !== null) {
     const env = { DEBIAN_FRONTEND: "noninteractive" };
     await during("installing Chromium", async () => {
@@ -33,7 +33,7 @@ export async function ensureChromium() {
       await run("apt-get", ["install", "--yes", "--quiet", "--quiet", "--no-install-recommends", "chromium"], { env });
     });
   }
-  if ((await find()) !== null) return;
+  if ((await pathOfChromium()) !== null) return;
   throw new Failure(
     "the tests need a browser: install Chromium (Debian and Ubuntu: sudo apt-get install chromium) or Google Chrome, " +
       "or set CHROME to the path of one",
@@ -43,7 +43,7 @@ export async function ensureChromium() {
 /** Starts it; the result is playwright's Browser. */
 export async function launch() {
   const { chromium } = await import("playwright-core");
-  const executablePath = await find();
+  const executablePath = await pathOfChromium();
   if (executablePath === null) throw new Failure("there is no browser: npm test installs one or prints how");
   return chromium.launch({
     executablePath,

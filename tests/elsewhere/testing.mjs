@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { transform } from "esbuild";
-import { find } from "../../scripts/chromium.mjs";
+import { pathOfChromium } from "../../scripts/chromium.mjs";
 import { capture, root } from "../../scripts/run.mjs";
 import { serve } from "../../scripts/serve.mjs";
 import { write } from "../package/support.mjs";
@@ -57,7 +57,7 @@ export function testRunners(folder) {
     write(folder, "prices.html", "<!doctype html>");
     const host = await serve(folder);
     t.after(() => host.close());
-    const path = await find();
+    const path = await pathOfChromium();
 
     await t.test("of Playwright", async () => {
       mkdirSync(inFolder("playwright"), { recursive: true });
