@@ -1,10 +1,12 @@
 // `npm run bench`: what a step costs, compared with its peers, in one run: tables here, the numbers in target/bench/result.json.
-// `npm run bench -- --quick` takes less care, and under a minute once everything is built.
+// `npm run bench -- --quick` takes less care, and under a minute once everything is built. `npm run bench -- --links FILE...`: instead,
+// what loading links ahead asks of a server, with recorded movements.
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { arch, cpus } from "node:os";
 import { join } from "node:path";
 import { cases } from "../benches/cases.mjs";
 import { measureDom } from "../benches/dom.mjs";
+import { measureLinks } from "../benches/links.mjs";
 import { median } from "../benches/measure.mjs";
 import { measureNumpy } from "../benches/numpy.mjs";
 import { report } from "../benches/report.mjs";
@@ -22,9 +24,26 @@ const folder = join(root, "target/bench");
 /** How much slower than this machine those are whose start is measured. */
 const THROTTLES = [1, 4, 6];
 
+/** Movements of each file of recordings. */
+const MOVEMENTS = 20;
+
+async function benchLinks(files) {
+  if (files.length === 0) throw new Failure("npm run bench -- --links FILE...: recorded movements");
+  await ensureChromium();
+  await build();
+  const browser = await launch();
+  try {
+    await measureLinks(browser, files, MOVEMENTS);
+  } finally {
+    await browser.close();
+  }
+}
+
 async function bench() {
+  const [first, ...files] = process.argv.slice(2);
+  if (first === "--links") return benchLinks(files);
   const unknown = process.argv.slice(2).find((option) => option !== "--quick");
-  if (unknown !== undefined) throw new Failure(`there is no option ${unknown}: npm run bench -- --quick`);
+  if (unknown !== undefined) throw new Failure(`there is no option ${unknown}: npm run bench -- --quick, or --links FILE...`);
   const quick = process.argv.includes("--quick");
   await ensureChromium();
   await build();
