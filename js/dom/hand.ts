@@ -6,16 +6,18 @@
 import type { Remaining } from "../core/predictor.js";
 import type { Place } from "./pointers.js";
 import type { Target } from "./targets.js";
+import type { Reason } from "./types.js";
 
 /** In which a target is meant once: a movement, a focus. */
 export interface Scope {
   readonly spent: Set<Target>;
 }
 
-/** An intent of a movement: what was meant, and since when (milliseconds). */
+/** An intent of a movement: what was meant, since when (milliseconds), and why. */
 export interface Meant {
   readonly target: Target;
   readonly time: number;
+  readonly reason: Reason;
 }
 
 /** What is known of a pointer's movement, once it is predicted. */

@@ -164,7 +164,7 @@ export class Intents {
     this.#begun.push(now);
     scope.spent.add(target);
     target.meant = now;
-    if (reason !== "press") predicted?.movement?.meant.push({ target, time: now });
+    if (reason !== "press") predicted?.movement?.meant.push({ target, time: now, reason });
     const controller = new AbortController();
     const { node, settings } = target;
     const intent: Intent = {

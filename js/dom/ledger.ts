@@ -29,6 +29,16 @@ export interface Outcome<T extends WatchTarget = WatchTarget> {
   readonly learnt: Learnt | null;
 }
 
+/** A tenth of the probabilities that the most probable target had, a frame of a movement each. */
+export interface CalibrationBin {
+  /** In how many frames it was in this tenth. */
+  readonly frames: number;
+  /** The mean of its probabilities. */
+  readonly probability: number;
+  /** The share of the frames in which it was the one that was pressed then. */
+  readonly pressed: number;
+}
+
 /** The numbers over all presses of a ledger. */
 export interface LedgerSummary {
   readonly presses: number;
@@ -39,6 +49,8 @@ export interface LedgerSummary {
   readonly lead: number;
   /** Expected calibration error of the most probable target's probability, over ten bins; null before there is one. */
   readonly calibration: number | null;
+  /** The calibration by tenths of the probability, those that have frames, the lowest first. */
+  readonly bins: readonly CalibrationBin[];
 }
 
 /** The outcomes of a watcher. */

@@ -215,10 +215,13 @@ function isElement(node: WatchTarget): node is Element {
   return (node as Element).nodeType === 1;
 }
 
+/** Takes out an element and all that is in it. */
+export const IGNORE = "data-whither-ignore";
+
 /** Whether it is in a subtree that the page takes out. */
 function isIgnored(element: Element): boolean {
   const host = hostOf(element.getRootNode());
-  return element.closest("[data-whither-ignore]") !== null || (host !== null && isIgnored(host));
+  return element.closest(`[${IGNORE}]`) !== null || (host !== null && isIgnored(host));
 }
 
 function query(root: ParentNode, selector: string): Element[] {

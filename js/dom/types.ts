@@ -218,6 +218,28 @@ export interface WatchOptions<T extends WatchTarget = WatchTarget> {
   readonly onError?: ((error: unknown) => void) | undefined;
 }
 
+/**
+ * A watcher as tools see it: what each watcher of a page gives to who asks. A tool dispatches a `CustomEvent` of the type
+ * `whither:inspect` on the window, with a function as its `detail`, and each watcher whose core is loaded, and that is not paused, calls it
+ * with this.
+ *
+ * @example
+ * ```ts
+ * const watchers: Watcher[] = [];
+ * const detail = ({ watcher }: Inspection) => watchers.push(watcher);
+ * dispatchEvent(new CustomEvent("whither:inspect", { detail }));
+ * ```
+ */
+export interface Inspection<T extends WatchTarget = WatchTarget> {
+  readonly watcher: Watcher<T>;
+  /** What these options are now, stated or by default. */
+  readonly options: { readonly threshold: number; readonly release: number; readonly none: number };
+  /** What holds for a target now: of the watcher's options, and its own. */
+  optionsOf(target: T): TargetOptions;
+  /** Why a target was taken to be meant last, in the movement under way or the last one; null where it was not. */
+  reasonOf(target: T): Reason | null;
+}
+
 /** Watches targets: what {@link watch} returns. */
 export interface Watcher<T extends WatchTarget = WatchTarget> {
   /**

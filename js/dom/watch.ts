@@ -94,7 +94,7 @@ class PageWatcher implements Watcher, PointerSinks {
       this.#load = resolve;
     })
       .then(() => Promise.all([platform.loadPrediction(), this.#settings.predictor ? null : platform.loadCore()]))
-      .then(([loaded, core]) => this.#predict(loaded, core));
+      .then((loaded) => this.#predict(loaded));
     // nobody has to wait for it
     this.ready.catch((error: unknown) => {
       this.#kept = null;
@@ -366,9 +366,10 @@ class PageWatcher implements Watcher, PointerSinks {
     this.#publish();
   }
 
-  #predict({ Prediction, surface }: Loaded, core: MakePredictor | null): void {
+  #predict([{ Prediction, surface }, core]: readonly [Loaded, MakePredictor | null]): void {
     if (this.#state === "stopped") return;
     const prediction = new Prediction(core, {
+      watcher: this,
       platform: this.#platform,
       surface: surface(),
       targets: this.#targets,

@@ -17,9 +17,10 @@
 export { type ErrorCode, WhitherError } from "#error";
 export type { Gaussian } from "../core/gaussian.js";
 export type { Remaining } from "../core/predictor.js";
-export type { Ledger, LedgerSummary, Outcome } from "../dom/ledger.js";
+export type { CalibrationBin, Ledger, LedgerSummary, Outcome } from "../dom/ledger.js";
 export type {
   Bounds,
+  Inspection,
   Intent,
   MakePredictor,
   PredictedTarget,

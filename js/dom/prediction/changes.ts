@@ -3,7 +3,7 @@
  *
  * @module
  */
-import type { Platform, Stop } from "../platform.js";
+import type { Listeners, Platform, Stop } from "../platform.js";
 import type { Target } from "../targets.js";
 
 export class Changes {
@@ -15,11 +15,13 @@ export class Changes {
   scrolled = false;
   readonly #platform: Platform;
   readonly #changed: () => void;
+  readonly #others: Listeners;
 
-  /** `changed` asks for a frame. */
-  constructor(platform: Platform, changed: () => void) {
+  /** `changed` asks for a frame; `others` are further listeners for each window. */
+  constructor(platform: Platform, changed: () => void, others: Listeners) {
     this.#platform = platform;
     this.#changed = changed;
+    this.#others = others;
   }
 
   /** Elements may have moved. */
@@ -51,6 +53,7 @@ export class Changes {
         transitionend: restyled,
         animationend: restyled,
         fullscreenchange: restyled,
+        ...this.#others,
       }),
       visualViewport && this.#platform.listen(visualViewport, { resize, scroll }),
     ];

@@ -10,7 +10,7 @@ import { attempt, hostOf, type Platform } from "../platform.js";
 import type { Changes } from "./changes.js";
 import type { Parts } from "./prediction.js";
 import { closest, contains, type Frame, type Surface } from "./surface.js";
-import { readBounds, type Target, type Targets } from "../targets.js";
+import { IGNORE, readBounds, type Target, type Targets } from "../targets.js";
 import type { Bounds, VirtualTarget } from "../types.js";
 
 /** Above this probability it is worth finding out whether something covers a target. */
@@ -114,6 +114,8 @@ export class Layout {
    */
   at(place: Place, found: readonly Target[], reach: boolean): readonly Target[] {
     if (this.active.length === 0 || this.#boxed.length === 0 || !this.knows(place.view)) return found;
+    // what is drawn over the page, such as a panel of tools, has nothing under it
+    if (place.path.some((node) => (node as Partial<Element>).hasAttribute?.(IGNORE))) return found;
     const main = this.toMain(place.view, place);
     const inside = this.#boxed.filter((target) => !found.includes(target) && isInside(main, target, reach));
     const inner = inside.filter((target) => isPathless(target) && isOnPath(target, place.path));

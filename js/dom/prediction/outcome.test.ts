@@ -17,7 +17,7 @@ function press(meant: readonly (readonly [Target, number])[], active: readonly T
   const movement = new Movement({ time: 1, x: 10, y: 20 }, []);
   movement.add({ time: 1, x: 10, y: 20 });
   movement.add({ time: 1.25, x: 60, y: 30 });
-  for (const [target, time] of meant) movement.meant.push({ target, time });
+  for (const [target, time] of meant) movement.meant.push({ target, time, reason: "pointer" });
   return outcomeOf(new Hand("pen"), seats, movement, 1500, 0.75, null, active);
 }
 

@@ -13,10 +13,11 @@ import type { Platform } from "../platform.js";
 import type { Place, Sample } from "../pointers.js";
 import type { Posterior } from "../snapshot.js";
 import { idOf, type Target, type Targets } from "../targets.js";
-import type { MakePredictor, Probable } from "../types.js";
+import type { MakePredictor, Probable, Watcher } from "../types.js";
 import { Changes } from "./changes.js";
 import { Decoration } from "./decoration.js";
 import { Engine, PointerPosterior } from "./engine.js";
+import { answering, INSPECT, inspectionOf } from "./inspection.js";
 import { Layout } from "./layout.js";
 import { outcomeOf } from "./outcome.js";
 import { Records } from "./records.js";
@@ -36,6 +37,7 @@ const LISTED = 0.01;
 
 /** What a prediction is made of. */
 export interface Parts {
+  readonly watcher: Watcher;
   readonly platform: Platform;
   readonly surface: Surface;
   readonly targets: Targets;
@@ -66,7 +68,8 @@ export class Prediction {
   constructor(core: MakePredictor | null, parts: Parts) {
     this.#parts = parts;
     this.#engine = new Engine(parts.settings, core, () => parts.platform.loadCore(), parts.failed);
-    this.changes = new Changes(parts.platform, parts.changed);
+    const inspection = inspectionOf(parts, () => this.#tracks.values());
+    this.changes = new Changes(parts.platform, parts.changed, { [INSPECT]: answering(inspection, parts.failed) });
     this.#layout = new Layout(parts, this.changes);
   }
 

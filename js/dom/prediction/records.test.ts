@@ -27,22 +27,26 @@ function recorded(presses: readonly Press[]): Records {
 describe("records", () => {
   it("have the shares, and the median of the leads, of an even number of presses too", () => {
     const three = [press(seats, 0.2), press(radio, 0.9), press(seats, 0)];
-    assert.deepEqual(recorded(three).summary(), { presses: 3, right: 2 / 3, wrong: 0, lead: 0.2, calibration: null });
+    assert.deepEqual(recorded(three).summary(), { presses: 3, right: 2 / 3, wrong: 0, lead: 0.2, calibration: null, bins: [] });
     assert.equal(recorded([...three, press(seats, 0.5)]).summary()?.lead, 0.35);
     assert.equal(recorded([]).summary(), null);
   });
 
   it("have the expected calibration error: by bins, weighted by how many frames are in each", () => {
     // .5 thrice, of which two are pressed; 1 once, which is not
-    const { calibration } = recorded([
+    const { calibration, bins } = recorded([
       press(seats, 0, [
         [seats, 0.5],
         [seats, 0.5],
         [radio, 0.5],
         [radio, 1],
       ]),
-    ]).summary() as { calibration: number };
+    ]).summary() as { calibration: number; bins: unknown };
     assert.ok(Math.abs(calibration - (Math.abs(1.5 - 2) + Math.abs(1 - 0)) / 4) < 1e-12, String(calibration));
+    assert.deepEqual(bins, [
+      { frames: 3, probability: 0.5, pressed: 2 / 3 },
+      { frames: 1, probability: 1, pressed: 0 },
+    ]);
   });
 
   it("count the presses of each id, and keep the last thousand outcomes and lines", () => {

@@ -48,7 +48,11 @@ export class Records implements Ledger {
     const count = this.#bins.reduce((total, bin) => total + bin.count, 0);
     const error = this.#bins.reduce((total, { sum, pressed }) => total + Math.abs(sum - pressed), 0);
     const lead = median(this.#outcomes.map((outcome) => outcome.lead));
-    return { presses, right: share("right"), wrong: share("wrong"), lead, calibration: count > 0 ? error / count : null };
+    const calibration = count > 0 ? error / count : null;
+    const bins = this.#bins
+      .filter((bin) => bin.count > 0)
+      .map((bin) => ({ frames: bin.count, probability: bin.sum / bin.count, pressed: bin.pressed / bin.count }));
+    return { presses, right: share("right"), wrong: share("wrong"), lead, calibration, bins };
   }
 
   toJSON(): unknown {
