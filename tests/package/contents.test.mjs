@@ -53,6 +53,8 @@ test("the package", async (t) => {
       "dist/keyboard.js",
       "dist/links.js",
       "dist/links.js.map",
+      "dist/overlay.js",
+      "dist/overlay.js.map",
       "dist/pointing-bytes.js",
       "dist/pointing-workerd.js",
       "dist/pointing-workerd.js.map",
@@ -80,6 +82,7 @@ test("the package", async (t) => {
       "dist/types/dom.d.ts",
       "dist/types/index.d.ts",
       "dist/types/links.d.ts",
+      "dist/types/overlay.d.ts",
       "dist/types/pointing.d.ts",
       "dist/types/react.d.ts",
       "dist/types/shared.d.ts",
@@ -102,6 +105,8 @@ test("the package", async (t) => {
       "dom.js",
       "links.d.ts",
       "links.js",
+      "overlay.d.ts",
+      "overlay.js",
       "package.json",
       "pointing.d.ts",
       "pointing.js",
@@ -161,6 +166,7 @@ test("the package", async (t) => {
       "pointing",
       "dom",
       "links",
+      "overlay",
       "prediction",
       "react",
       "testing",
@@ -176,7 +182,7 @@ test("the package", async (t) => {
 
   await t.test("carries what learns in whither/study alone", () => {
     const shipped = ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction"];
-    for (const name of [...shipped, "links", "react", "testing"]) {
+    for (const name of [...shipped, "links", "overlay", "react", "testing"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

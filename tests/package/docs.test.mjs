@@ -18,7 +18,7 @@ test("the front page of the interface's documentation", async (t) => {
   await t.test("leads to every entry of the package and to what matters first", () => {
     const links = [...content.matchAll(/href="([\w./-]+\.html)"/g)].map(([, link]) => link);
     for (const link of links) assert.ok(existsSync(join(pages, link)), `${link} leads nowhere`);
-    for (const entry of ["index", "dom", "react", "pointing", "slim", "study", "testing", "links"])
+    for (const entry of ["index", "dom", "react", "pointing", "slim", "study", "testing", "links", "overlay"])
       assert.ok(links.includes(`modules/${entry}.html`), `no link to ${entry}`);
     for (const name of [
       "classes/index.Predictor",

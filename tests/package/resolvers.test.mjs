@@ -33,6 +33,7 @@ test("the package's names", async (t) => {
       "./react",
       "./testing",
       "./links",
+      "./overlay",
       "./study",
       "./whither.wasm",
       "./pointing.wasm",
