@@ -16,6 +16,8 @@ export class Tuning {
   readonly #inspection: Inspection;
   /** What was, since something is changed. */
   #before: Values | null = null;
+  /** Whether nobody has stated a release, as far as can be known. */
+  #follows = false;
   readonly #targets = new Map<WatchTarget, TargetOptions>();
 
   constructor(inspection: Inspection) {
@@ -35,7 +37,7 @@ export class Tuning {
   get code(): string {
     const { values } = this;
     const differ = (["threshold", "release", "none"] as const).filter((key) => this.#before && values[key] !== this.#before[key]);
-    const stated = differ.filter((key) => key !== "release" || !follows(values));
+    const stated = differ.filter((key) => key !== "release" || !this.#follows);
     return stated.length > 0 ? `{ ${stated.map((key) => `${key}: ${Number(values[key].toFixed(3))}`).join(", ")} }` : "";
   }
 
@@ -46,10 +48,15 @@ export class Tuning {
    */
   set(changes: Partial<Values>): void {
     const { values } = this;
-    this.#before ??= { ...values };
+    if (!this.#before) {
+      this.#before = { ...values };
+      this.#follows = follows(values);
+    }
     const { threshold = values.threshold, release = values.release } = changes;
-    if (changes.release !== undefined) this.#watcher.update({ ...changes, threshold: Math.max(threshold, release) });
-    else this.#watcher.update({ ...changes, release: follows(values) ? undefined : Math.min(threshold, release) });
+    if (changes.release !== undefined) this.#follows = false;
+    const legal =
+      changes.release === undefined ? { release: Math.min(threshold, release) } : { threshold: Math.max(threshold, release) };
+    this.#watcher.update({ ...changes, ...(this.#follows ? { release: undefined } : legal) });
   }
 
   prior(target: WatchTarget): number {

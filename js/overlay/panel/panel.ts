@@ -68,8 +68,13 @@ export class Panel {
     const keydown = (event: KeyboardEvent) => {
       if (event.key !== "Escape" || event.defaultPrevented) return;
       event.stopPropagation();
-      if (this.#body.hidden) asks.hide();
-      else this.#collapse(true);
+      if (this.#body.hidden) {
+        asks.hide();
+        return;
+      }
+      this.#collapse(true);
+      // what had the focus may be folded away
+      this.#fold.focus();
     };
     this.element = make("section", { className: "panel", "aria-labelledby": "name", on: { keydown } }, header, this.#body);
     this.#collapse(collapsed);
