@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { movement } from "../browser/hand.mjs";
 import { AWAY, CORNERS, hosted, MIDDLE, mouse, open, reach, read, scripted, sleep } from "./page.mjs";
+import { count } from "./standing.mjs";
 
 describe("stop", () => {
   const site = hosted();
@@ -114,83 +115,3 @@ describe("stop", () => {
     await close();
   });
 });
-
-/** Runs in the page before anything else: counts what is listened to, observed and waited for. */
-function count() {
-  const listeners = new Map();
-  const key = (type, capture) => `${type} ${Boolean(typeof capture === "object" ? capture?.capture : capture)}`;
-  const { addEventListener, removeEventListener } = EventTarget.prototype;
-  const forget = (target, listener, name) => listeners.get(target)?.get(listener)?.delete(name);
-  EventTarget.prototype.addEventListener = function (type, listener, options) {
-    const target = this ?? globalThis;
-    if (listener && !options?.signal?.aborted) {
-      const name = key(type, options);
-      const of = listeners.get(target) ?? listeners.set(target, new Map()).get(target);
-      const names = of.get(listener) ?? of.set(listener, new Set()).get(listener);
-      names.add(name);
-      const gone = () => forget(target, listener, name);
-      if (options?.signal) addEventListener.call(options.signal, "abort", gone);
-      if (options?.once) addEventListener.call(target, type, gone);
-      // what is dispatched once to what is gone then
-      if (type === "abort") addEventListener.call(target, type, gone);
-    }
-    return addEventListener.call(target, type, listener, options);
-  };
-  EventTarget.prototype.removeEventListener = function (type, listener, options) {
-    forget(this ?? globalThis, listener, key(type, options));
-    return removeEventListener.call(this ?? globalThis, type, listener, options);
-  };
-
-  const observers = new Map();
-  for (const name of ["ResizeObserver", "IntersectionObserver", "MutationObserver", "PerformanceObserver"]) {
-    window[name] = class extends window[name] {
-      observe(target, ...more) {
-        const of = observers.get(this) ?? observers.set(this, new Set()).get(this);
-        of.add(target);
-        return super.observe(target, ...more);
-      }
-      unobserve(target) {
-        observers.get(this)?.delete(target);
-        return super.unobserve(target);
-      }
-      disconnect() {
-        observers.delete(this);
-        return super.disconnect();
-      }
-    };
-  }
-
-  const waiting = new Map();
-  for (const [begin, end] of [
-    ["requestAnimationFrame", "cancelAnimationFrame"],
-    ["setTimeout", "clearTimeout"],
-    ["setInterval", "clearInterval"],
-    ["requestIdleCallback", "cancelIdleCallback"],
-  ]) {
-    const [start, cancel] = [window[begin], window[end]];
-    waiting.set(begin, new Set());
-    window[begin] = (callback, ...more) => {
-      const id = start.call(
-        window,
-        (...given) => {
-          if (begin !== "setInterval") waiting.get(begin).delete(id);
-          return callback(...given);
-        },
-        ...more,
-      );
-      waiting.get(begin).add(id);
-      return id;
-    };
-    window[end] = (id) => {
-      waiting.get(begin).delete(id);
-      return cancel.call(window, id);
-    };
-  }
-
-  const sum = (numbers) => [...numbers].reduce((total, each) => total + each, 0);
-  window.standing = () => ({
-    listeners: sum([...listeners.values()].flatMap((of) => [...of.values()].map((names) => names.size))),
-    observers: sum([...observers.values()].map((targets) => targets.size)),
-    waiting: Object.fromEntries([...waiting].map(([name, ids]) => [name, ids.size])),
-  });
-}
