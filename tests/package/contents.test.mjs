@@ -101,6 +101,7 @@ test("the package", async (t) => {
       "dist/workerd.js",
       "dist/workerd.js.map",
       "docs/demo.webp",
+      "docs/overlay.webp",
       "dom.d.ts",
       "dom.js",
       "links.d.ts",

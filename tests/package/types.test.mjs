@@ -87,8 +87,9 @@ new Predictor(scenario).observe("0", [1, 2]);
 
 /** A page's program: for users who have the DOM. */
 const onPage = `
-import { watch, WhitherError, type Intent, type Snapshot, type VirtualTarget, type Watcher, type WatchOptions } from "whither/dom";
 import { links as ahead, type Exclusion, type LinksStats } from "whither/links";
+import { watch, WhitherError, type Inspection, type Intent, type Snapshot, type VirtualTarget, type Watcher, type WatchOptions } from "whither/dom";
+import { overlay, type Overlay, type OverlayOptions } from "whither/overlay";
 import { PointerPredictor } from "whither/pointing";
 import type { Track } from "whither/study";
 
@@ -115,6 +116,17 @@ const unsubscribe: () => void = links.subscribe(() => console.log(snapshot.inten
 const x: number | undefined = links.forecast(0.1)?.mean[0];
 export const lines: string[] = links.ledger.lines();
 export const tracks: Track[] = lines.map((line) => JSON.parse(line));
+const how: OverlayOptions = { theme: "dark", collapsed: undefined, shortcut: null, signal: new AbortController().signal };
+const drawn: Overlay = overlay(links, how);
+if (drawn.state !== "closed") drawn.close();
+overlay([links, watch("button")]).hide();
+overlay().close();
+// @ts-expect-error: a selector is no watcher
+overlay("nav a");
+// @ts-expect-error: there is no such theme
+overlay(links, { theme: "blue" });
+const answers = ({ options, optionsOf, reasonOf, watcher }: Inspection) => [options.none, optionsOf, reasonOf, watcher.targets];
+dispatchEvent(new CustomEvent("whither:inspect", { detail: answers }));
 links.stop();
 unsubscribe();
 
