@@ -13,8 +13,6 @@ export interface Colours {
   readonly ink: string;
   /** Around lines and behind words, so that they show on any page. */
   readonly ground: string;
-  /** What is not probable. */
-  readonly quiet: string;
 }
 
 /** How many ways are drawn, to targets at least this probable, and the times on them (s). */
@@ -28,6 +26,9 @@ const CONTOUR = Math.sqrt(-2 * Math.log(0.2));
 
 /** Of the pointer's trail so many places are kept. */
 const TRAIL = 40;
+
+/** The outlines of what is not probable. */
+const QUIET = "rgb(128 132 140 / 0.8)";
 
 const FONT = "600 11px system-ui, sans-serif";
 const CHIP = 18;
@@ -95,19 +96,24 @@ export class Drawing {
     const each = [...places].map(([target, box]) => ({ target, box, probability: probabilities.get(target) ?? 0 }));
     each.sort((a, b) => a.probability - b.probability);
     for (const { target, box, probability } of each) {
-      const isIntended = intended.includes(target);
-      const strength = isIntended ? 1 : probability;
-      context.setLineDash(strength > 0 ? [] : [3, 3]);
+      const strength = intended.includes(target) ? 1 : probability;
       context.beginPath();
       context.roundRect?.(box.x, box.y, box.width, box.height, 3);
       if (!context.roundRect) context.rect(box.x, box.y, box.width, box.height);
-      if (strength > 0) {
-        context.fillStyle = colours.light;
-        context.globalAlpha = 0.22 * strength;
-        context.fill();
+      if (strength === 0) {
+        // a middling grey, which shows on dark and on light
+        context.setLineDash([3, 3]);
+        context.lineWidth = 1;
+        context.strokeStyle = QUIET;
+        context.stroke();
+        continue;
       }
-      context.globalAlpha = strength > 0 ? 0.7 : 0.35;
-      this.#line(context, strength > 0 ? colours.light : colours.quiet, 1 + 1.5 * strength, colours.ground);
+      context.setLineDash([]);
+      context.fillStyle = colours.light;
+      context.globalAlpha = 0.22 * strength;
+      context.fill();
+      context.globalAlpha = 0.8;
+      this.#line(context, colours.light, 1 + 1.5 * strength, colours.ground);
       context.globalAlpha = 1;
     }
     context.setLineDash([]);
@@ -116,7 +122,7 @@ export class Drawing {
   /** Strokes the path, with something around it. */
   #line(context: CanvasRenderingContext2D, colour: string, width: number, ground: string): void {
     context.strokeStyle = ground;
-    context.lineWidth = width + 2;
+    context.lineWidth = width + 1.5;
     context.stroke();
     context.strokeStyle = colour;
     context.lineWidth = width;

@@ -68,6 +68,8 @@ class PageOverlay implements Overlay {
   readonly #end = new AbortController();
   #state: Overlay["state"] = "shown";
   #chosen: Subject | null = null;
+  /** Whether it was chosen by hand; else it is the one that has a movement. */
+  #isFixed = false;
   #frame = 0;
   #timer = 0;
   #resized = true;
@@ -82,7 +84,10 @@ class PageOverlay implements Overlay {
     this.#panel = new Panel(settings.collapsed ?? innerWidth < NARROW, settings.shortcut?.text ?? null, {
       hide: () => this.hide(),
       close: () => this.close(),
-      choose: (index) => (this.#chosen = this.#subjects[index] ?? null),
+      choose: (index) => {
+        this.#chosen = this.#subjects[index] ?? null;
+        this.#isFixed = true;
+      },
     });
     this.#root = make("div", { className: "root", "data-theme": settings.theme }, this.#drawing.canvas, this.#panel.element);
     this.#mount();
@@ -198,7 +203,11 @@ class PageOverlay implements Overlay {
     const subject = new Subject(watcher);
     this.#subjects.push(subject);
     this.#chosen ??= subject;
-    const unsubscribe = watcher.subscribe(() => subject.log.look(watcher.getSnapshot(), subject.inspection));
+    const unsubscribe = watcher.subscribe(() => {
+      const snapshot = watcher.getSnapshot();
+      subject.log.look(snapshot, subject.inspection);
+      if (snapshot.moving && !this.#isFixed && !this.#chosen?.watcher.getSnapshot().moving) this.#chosen = subject;
+    });
     this.#end.signal.addEventListener("abort", unsubscribe);
     return subject;
   }
@@ -233,5 +242,5 @@ class PageOverlay implements Overlay {
 function coloursOf(root: HTMLElement): Colours {
   const style = getComputedStyle(root);
   const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  return { light: colour("light"), ink: colour("ink"), ground: colour("ground"), quiet: colour("quiet") };
+  return { light: colour("light"), ink: colour("ink"), ground: colour("ground") };
 }

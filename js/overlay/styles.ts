@@ -32,7 +32,7 @@ canvas { position: absolute; inset: 0; width: 100%; height: 100%; }
 :is(button, select, summary, input, [tabindex]):focus-visible { outline: 2px solid var(--light); outline-offset: 2px; border-radius: 6px; }
 header { display: flex; align-items: center; gap: 2px; padding: 4px 6px; cursor: move; touch-action: none; user-select: none; -webkit-user-select: none; }
 h2 { margin: 0; font-size: 13px; font-weight: 650; line-height: 1; }
-.state { flex: 1; line-height: 1.3; margin-inline-start: 8px; color: var(--muted); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+.state { flex: 1; line-height: 1; padding-block: 3px; margin-inline-start: 8px; color: var(--muted); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 button { font: inherit; color: inherit; cursor: pointer; border: 1px solid var(--line); border-radius: 6px; background: var(--raised); padding: 3px 10px; }
 header button { width: 32px; height: 32px; padding: 8px; border: 0; background: none; color: var(--muted); }
 .grip { cursor: move; }
@@ -63,11 +63,12 @@ summary::before { content: ""; width: 6px; height: 6px; border: solid var(--mute
 details[open] > summary::before { transform: translateY(-2px) rotate(45deg); }
 summary span { margin-inline-start: auto; font-weight: 400; color: var(--muted); }
 .inside { padding: 0 14px 12px; }
-ol { margin: 0; padding: 0; list-style: none; max-height: 156px; overflow: auto; overscroll-behavior: contain; }
-li { display: grid; grid-template-columns: 46px minmax(0, 1fr) auto; gap: 8px; padding: 3px 0; }
+ol { margin: 0; padding: 0; list-style: none; max-height: 196px; overflow: auto; overscroll-behavior: contain; }
+li { display: grid; grid-template-columns: minmax(0, 1fr) auto; gap: 0 8px; padding: 4px 0; }
+li > :nth-child(even) { text-align: end; }
 li + li { border-top: 1px solid var(--line); }
 li > * { white-space: nowrap; }
-li :is(time, small) { color: var(--muted); font-size: 12px; }
+small { color: var(--muted); font-size: 12px; }
 [data-verdict="wrong"] { color: var(--bad); }
 [data-verdict="right"] { color: var(--good); }
 p { margin: 0; color: var(--muted); }
@@ -82,7 +83,7 @@ input { width: 100%; height: 24px; margin: 0; accent-color: var(--light); }
 select { font: inherit; color: inherit; background: var(--raised); border: 1px solid var(--line); border-radius: 6px; padding: 4px 6px; width: 100%; min-width: 0; }
 .actions { display: flex; gap: 8px; margin-top: 8px; align-items: center; }
 code { flex: 1; min-width: 0; font: 12px ui-monospace, monospace; overflow-wrap: anywhere; user-select: all; -webkit-user-select: all; }
-.watchers { padding: 0 14px 10px; }
+.watchers { padding: 10px 14px 0; }
 .problem { color: var(--bad); }
 @media (max-width: 599px) {
   .panel { left: 8px; right: 8px; width: auto; max-width: none; bottom: calc(8px + env(safe-area-inset-bottom, 0px)); max-height: 56%; }

@@ -8,7 +8,8 @@ function prepare() {
   window.parts = (selector) => [...(shadow()?.querySelectorAll(selector) ?? [])];
   /** The lines of the posterior: a name and a figure each. */
   window.lines = () => parts(".row").map((row) => [row.firstChild.textContent, row.lastChild.textContent]);
-  window.logLines = () => parts("li").map(({ children }) => [...children].slice(1).map(({ textContent }) => textContent));
+  window.logLines = () =>
+    parts("li").map(({ children: [name, end, why] }) => [`${name.textContent} ${why.textContent}`, end.textContent]);
   window.figures = () => parts("dd").map(({ textContent }) => textContent);
   /** The share of a box's outline that is painted. */
   window.outlined = ({ x, y, width, height }) => {

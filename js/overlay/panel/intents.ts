@@ -43,9 +43,15 @@ export function intents(since: number): Part {
 function itemOf(entry: Entry, subject: Subject, since: number) {
   const { target, time, reason, probability } = entry;
   const why = [reason ?? "", probability > 0 ? percent(probability) : ""].filter(Boolean).join(" ");
-  const name = make("span", { className: "what" }, subject.nameOf(target), " ", make("small", {}, why));
   const end = make("span", {});
-  const element = make("li", {}, make("time", {}, `${((time - since) / 1000).toFixed(1)} s`), name, end);
+  const element = make(
+    "li",
+    {},
+    make("span", { className: "what" }, subject.nameOf(target)),
+    end,
+    make("small", {}, why),
+    make("small", {}, `${((time - since) / 1000).toFixed(1)} s`),
+  );
   return {
     element,
     update(): void {
