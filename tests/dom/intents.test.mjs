@@ -92,6 +92,20 @@ describe("the intents of recorded movements", () => {
     assert.ok(Math.abs(lead({}) - lead({ after: 100 }) - 0.1) < 0.02);
   });
 
+  test("ForesightJS is given the same: what its line meets, the earlier the farther ahead, and nothing is taken back", () => {
+    const peer = (list, ahead = 120) => list.find((r) => r.trajectoryPredictionTime === ahead);
+    const ann = peer(users.ann);
+    assert.deepEqual([ann.movements, ann.wrong, ann.early, ann.first, ann.held, ann.withheld], [1, 0, 1, 1, 1, 0]);
+    // a line of 120 ms, a frame and the filter's delay
+    assert.ok(ann.leadToEntry > 0.06 && ann.leadToEntry < 0.14, ann.leadToEntry);
+    assert.ok(peer(users.ann, 40).leadToEntry < ann.leadToEntry && ann.leadToEntry < peer(users.ann, 200).leadToEntry);
+    const bob = peer(users.bob);
+    assert.deepEqual([bob.wrong, bob.early, bob.first, bob.withheld], [1, 1, 0, 1]);
+    // from before the first target until the press, at 1.1 s
+    assert.ok(bob.wrongSeconds > 0.6 && bob.wrongSeconds < 0.9, bob.wrongSeconds);
+    assert.match(output, /made-up: 2 movements of 2 users, ForesightJS \d+\.\d+/);
+  });
+
   test("the tables have the defaults first, and a line for whatever is varied; broken lines are named", () => {
     assert.match(output, /made-up: 2 movements of 2 users, pointer alone/);
     assert.match(output, /made-up: 2 movements of 2 users, all default reasons/);

@@ -8,6 +8,7 @@ import { parseArgs } from "node:util";
 import { bundle } from "../../../scripts/bundle.mjs";
 import { Failure, main, root } from "../../../scripts/run.mjs";
 import { StreamSums, Sums } from "./figures.mjs";
+import { PEER, SETTINGS } from "./foresight.mjs";
 import { Pool } from "./pool.mjs";
 import { LEGEND, print, write } from "./report.mjs";
 import { optionsOf, REASONS, rowsOf, rowsOfStreams } from "./rows.mjs";
@@ -44,8 +45,9 @@ await main(import.meta.url, async () => {
 /** The movements one by one. */
 async function intents(files, defaults, make, { users, grid, json }) {
   const rows = rowsOf(defaults, grid);
-  const combinations = REASONS.flatMap((reasons) => rows.map((row) => ({ reasons, row })));
-  const pool = make(combinations.map(({ row, reasons }) => optionsOf(row, reasons)));
+  const own = REASONS.flatMap((reasons) => rows.map((row) => ({ reasons, row })));
+  const pool = make(own.map(({ row, reasons }) => optionsOf(row, reasons)));
+  const combinations = [...own, ...SETTINGS.map((row) => ({ reasons: PEER, row }))];
   const sets = new Map();
   try {
     for (const file of files) await score(file, pool, sets, combinations.length);

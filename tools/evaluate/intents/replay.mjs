@@ -1,4 +1,7 @@
-// A recorded movement on a page without a browser, watched by whither/dom itself, until the press that it ended in.
+// A recorded movement on a page without a browser, watched by whither/dom itself, until the press that it ended in; beside it
+// ForesightJS is given the same events and frames.
+import { register } from "./foresight.mjs";
+import { isInside } from "./tracks.mjs";
 
 /** Milliseconds on the page's clock before the first sample: what is watched has been read by then. */
 const BEFORE = 100;
@@ -20,16 +23,18 @@ export function approachOf({ targets, target, samples }) {
  * @param Page - `TestPage` of js/dom/testing.
  * @param core - Makes predictors.
  * @param withheld - Leaves the target that is pressed out of the page: whatever is intended then is false.
- * @returns the movement's `{ entry, press }` from its first sample on, and for each of the options what was intended,
- *   `[{ right, reason, begin, end }]`: seconds from the first sample, `end` null where the press ended it; null for no approach.
+ * @param peers - Settings of ForesightJS.
+ * @returns the movement's `{ entry, press }` from its first sample on, and for each of the options, then of the peers, what was intended,
+ *   `[{ right, begin, end }]`: seconds from the first sample, `end` null where the press ended it; null for no approach.
  */
-export async function replay(track, options, { Page, core, withheld }) {
+export async function replay(track, options, { Page, core, withheld, peers = [] }) {
   const approach = approachOf(track);
   if (!approach) return null;
   const page = new Page({ core });
   const elements = track.targets.map((box, i) => (withheld && i === track.target ? null : append(page, box)));
   const origin = track.samples[0][0];
   const watching = await watchEach(page, options);
+  const called = register(page, track, elements, peers, () => secondsOf(page));
   const samples = track.samples.slice(0, approach.press + 1).map(([time, ...place]) => [time - origin, ...place]);
   move(page, samples);
   press(page, samples.at(-1));
@@ -37,7 +42,7 @@ export async function replay(track, options, { Page, core, withheld }) {
   return {
     entry: samples[approach.entry][0],
     press: samples[approach.press][0],
-    intents: watching.intents.map((each) => each.map((intent) => withRight(intent, elements[track.target]))),
+    intents: [...watching.intents, ...called].map((each) => each.map((intent) => withRight(intent, elements[track.target]))),
   };
 }
 
@@ -53,7 +58,7 @@ export function withRight({ target, ...intent }, element) {
  *   come are appended, and what ends it.
  */
 export async function watchEach(page, options) {
-  const now = () => (page.now() - BEFORE) / 1000;
+  const now = () => secondsOf(page);
   const watchers = options.map((own) => {
     const intents = [];
     const open = new Map();
@@ -85,6 +90,11 @@ export async function watchEach(page, options) {
   };
 }
 
+/** Seconds since everything was ready. */
+function secondsOf(page) {
+  return (page.now() - BEFORE) / 1000;
+}
+
 /** Lets time pass until so many seconds after everything was ready. */
 export function waitUntil(page, time) {
   page.clock.advanceTo(BEFORE + 1000 * time);
@@ -111,8 +121,4 @@ export function append(page, box) {
 /** A box of a recording, `[x, y, width, height]` about its centre, as a page has it. */
 export function boundsOf([x, y, width, height]) {
   return { x: x - width / 2, y: y - height / 2, width, height };
-}
-
-export function isInside([, x, y], [centerX, centerY, width, height]) {
-  return Math.abs(x - centerX) <= width / 2 && Math.abs(y - centerY) <= height / 2;
 }

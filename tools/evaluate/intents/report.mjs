@@ -3,6 +3,7 @@ import { mkdir, writeFile } from "node:fs/promises";
 import { dirname } from "node:path";
 import { table } from "../../../scripts/table.mjs";
 import { Sums } from "./figures.mjs";
+import { nameOfSettings, PEER } from "./foresight.mjs";
 import { isVaried, nameOf, REASONS } from "./rows.mjs";
 
 /** The sums of all users for the i-th options. */
@@ -16,6 +17,7 @@ function total(users, i) {
 export const LEGEND = `wrong: intents of other targets before the press, and for how long. early: movements whose target was intended before the pointer came to it;
 first: early, and before any other; before press: early or not; held: of the early ones, not taken back before the press.
 lead: median from the target's first intent. withheld: intents where the target is not on the page, all of them false.
+ForesightJS is given the same events and frames, and each target once, but for what the movement begins on; nothing takes its calls back.
 `;
 
 const HEADINGS = [
@@ -32,11 +34,13 @@ const HEADINGS = [
   "false / min",
 ];
 
-/** Prints a set's tables: for each of the reasons the options varied one at a time, and the defaults by user. */
+/** Prints a set's tables: for each of the reasons the options varied one at a time, those of ForesightJS, and the defaults by user. */
 export function print(name, users, combinations, rows, byUser) {
-  for (const reasons of REASONS) {
+  const title = ({ reasons, row }) => (reasons === PEER ? nameOfSettings(row) : nameOf(row, rows));
+  for (const reasons of [...REASONS, PEER]) {
     const mine = combinations.flatMap((each, i) => (each.reasons === reasons ? { ...each, i } : []));
-    const all = mine.filter(({ row }) => isVaried(row, rows)).map(({ row, i }) => [nameOf(row, rows), total(users, i).figures()]);
+    const listed = mine.filter(({ row }) => reasons === PEER || isVaried(row, rows));
+    const all = listed.map((each) => [title(each), total(users, each.i).figures()]);
     const { movements } = all[0][1];
     console.log(`${name}: ${movements} movements of ${users.size} users, ${reasons.name}\n`);
     table(["options", ...HEADINGS], cells(all));

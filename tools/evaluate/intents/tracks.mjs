@@ -17,6 +17,10 @@ export function partOf({ id = "" }) {
   return { in: " in", out: " out" }[String(id).split("-").at(-1)] ?? "";
 }
 
+export function isInside([, x, y], [centerX, centerY, width, height]) {
+  return Math.abs(x - centerX) <= width / 2 && Math.abs(y - centerY) <= height / 2;
+}
+
 function rows(list, name, length, must) {
   if (!Array.isArray(list) || list.length === 0) throw new Error(`${name}: must be a list that is not empty`);
   list.forEach((row, i) => {

@@ -1,7 +1,8 @@
 // Pages are wandered over more than they are pressed: a user's movements in one stream, of which only some lead to a target.
 import { judge } from "./figures.mjs";
 import { randomOf } from "./random.mjs";
-import { append, approachOf, boundsOf, isInside, move, press, waitUntil, watchEach, withRight } from "./replay.mjs";
+import { append, approachOf, boundsOf, move, press, waitUntil, watchEach, withRight } from "./replay.mjs";
+import { isInside } from "./tracks.mjs";
 
 /** Shares of the movements that lead to nothing on the page. */
 export const SHARES = [0.5, 0.8];

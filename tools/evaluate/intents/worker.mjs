@@ -3,6 +3,7 @@
 import { parentPort, workerData } from "node:worker_threads";
 import { init, PointerPredictor } from "../../../dist/pointing.js";
 import { judge } from "./figures.mjs";
+import { SETTINGS } from "./foresight.mjs";
 import { replay } from "./replay.mjs";
 import { partOf, readTrack } from "./tracks.mjs";
 import { chain, replayStream, SHARES } from "./wandering.mjs";
@@ -12,17 +13,17 @@ const { TestPage: Page } = await import(page);
 await init();
 const core = (targets, settings) => new PointerPredictor(targets, settings);
 
-/** A movement's figures for each of the options; null where it has no approach. */
+/** A movement's figures for each of the options, then for each of ForesightJS's settings; null where it has no approach. */
 async function score(track) {
-  const shown = await replay(track, options, { Page, core, withheld: false });
+  const shown = await replay(track, options, { Page, core, withheld: false, peers: SETTINGS });
   if (!shown) return null;
-  const hidden = await replay(track, options, { Page, core, withheld: true });
+  const hidden = await replay(track, options, { Page, core, withheld: true, peers: SETTINGS });
   return {
     user: track.user ?? "",
     part: partOf(track),
-    scores: options.map((_, i) => ({
+    scores: shown.intents.map((intents, i) => ({
       seconds: shown.press,
-      judged: judge(shown, shown.intents[i]),
+      judged: judge(shown, intents),
       withheld: hidden.intents[i].filter(({ begin }) => begin < hidden.press).length,
     })),
   };
