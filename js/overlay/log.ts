@@ -32,6 +32,8 @@ export class Log {
   readonly entries: Entry[] = [];
   /** How many there were. */
   count = 0;
+  /** Another number after each change. */
+  revision = 0;
   readonly #watcher: Watcher;
   readonly #running = new Map<WatchTarget, Entry>();
   #last: Outcome | undefined;
@@ -72,6 +74,7 @@ export class Log {
     const recent = this.entries.find((entry) => entry.target === target && entry.end !== "released");
     const entry = recent && !recent.verdict ? recent : this.#add(target, "press", probability, time);
     this.#end(target, "pressed");
+    this.revision++;
     Object.assign(entry, { end: "pressed", seconds: lead, verdict });
   }
 
@@ -79,6 +82,7 @@ export class Log {
     const entry: Entry = { target, time, reason, probability, end: null, seconds: 0, verdict: null };
     this.#running.set(target, entry);
     this.count++;
+    this.revision++;
     this.entries.unshift(entry);
     this.entries.length = Math.min(this.entries.length, MOST);
     return entry;
@@ -88,6 +92,7 @@ export class Log {
     const entry = this.#running.get(target);
     if (!entry) return;
     this.#running.delete(target);
+    this.revision++;
     entry.end = end;
     entry.seconds = (performance.now() - entry.time) / 1000;
   }

@@ -33,9 +33,11 @@ const SHORTCUT = "Alt+Shift+W";
  */
 export function readOptions(given: unknown): Settings {
   const keys = ["theme", "collapsed", "shortcut", "signal"];
-  const { theme = "auto", collapsed, shortcut = SHORTCUT, signal } = isAbsent(given) ? {} : fields(given, "", keys, "options");
+  const read = isAbsent(given) ? {} : fields(given, "", keys, "options");
+  const { collapsed, shortcut = SHORTCUT, signal } = read;
+  const theme = read["theme"] ?? "auto";
   if (!THEMES.includes(theme as string)) refuse("out-of-range", "theme", `must be one of ${THEMES.join(", ")}`, theme);
-  if (collapsed !== undefined && typeof collapsed !== "boolean") {
+  if (!isAbsent(collapsed) && typeof collapsed !== "boolean") {
     refuse("wrong-type", "collapsed", "must be a boolean", collapsed);
   }
   if (!isAbsent(signal) && typeof (signal as AbortSignal).throwIfAborted !== "function") {
@@ -43,7 +45,7 @@ export function readOptions(given: unknown): Settings {
   }
   return {
     theme: theme as Settings["theme"],
-    collapsed,
+    collapsed: collapsed ?? undefined,
     shortcut: shortcut === null ? null : readShortcut(shortcut),
     signal: (signal as AbortSignal | undefined) ?? null,
   };

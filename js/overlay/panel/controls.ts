@@ -15,9 +15,6 @@ const PRIORS = [0, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8];
 /** So many targets can be chosen from. */
 const MOST = 200;
 
-/** For so many milliseconds the button shows that it has copied. */
-const COPIED = 1500;
-
 export function controls(): Part {
   let subject: Subject | null = null;
   let listed: readonly WatchTarget[] = [];
@@ -75,6 +72,7 @@ export function controls(): Part {
     prior.show(nearest(value), value === 0 ? "never" : `×${Number(value.toPrecision(3))}`);
     reset.disabled = !tuning.isChanged;
     copy.disabled = tuning.code === "";
+    if (code.textContent !== tuning.code) write(copy, "Copy");
     write(code, tuning.code);
   }
 
@@ -89,10 +87,7 @@ export function controls(): Part {
   }
 
   function copied(): void {
-    const done = () => {
-      write(copy, "Copied");
-      setTimeout(() => write(copy, "Copy"), COPIED);
-    };
+    const done = () => write(copy, "Copied");
     // where the page may not write to the clipboard, it is selected
     const select = () => getSelection()?.selectAllChildren(code);
     (navigator.clipboard?.writeText(code.textContent ?? "") ?? Promise.reject()).then(done, select);

@@ -4,7 +4,7 @@
  * @module
  */
 import { duration, make, percent, write } from "../elements.js";
-import type { Entry } from "../log.js";
+import type { Entry, Log } from "../log.js";
 import type { Subject } from "../subject.js";
 import type { Part } from "./now.js";
 
@@ -20,10 +20,13 @@ export function intents(since: number): Part {
     make("div", { className: "inside" }, empty, list),
   );
   let items = new Map<Entry, ReturnType<typeof itemOf>>();
+  let shown: readonly [Log, number] | null = null;
   return {
     element,
     update(subject) {
       const { log } = subject;
+      if (shown?.[0] === log && shown[1] === log.revision) return;
+      shown = [log, log.revision];
       write(count, String(log.count));
       empty.hidden = log.entries.length > 0;
       list.hidden = !empty.hidden;

@@ -3,7 +3,7 @@
  *
  * @module
  */
-import type { LedgerSummary } from "#dom";
+import type { LedgerSummary, Outcome, Watcher } from "#dom";
 import { draw, duration, make, percent, write } from "../elements.js";
 import type { Part } from "./now.js";
 
@@ -23,10 +23,14 @@ export function ledger(): Part {
   const filled = make("div", {}, numbers);
   filled.append(chart);
   const element = make("details", {}, make("summary", {}, "Ledger", count), make("div", { className: "inside" }, empty, filled));
-  let shown: string | null = null;
+  let shown: readonly [Watcher, Outcome | undefined, boolean] | null = null;
   return {
     element,
     update({ watcher }) {
+      const state = [watcher, watcher.ledger.outcomes.at(-1), element.open] as const;
+      // the numbers are over a thousand presses: they are computed when there is another one
+      if (state.every((each, i) => each === shown?.[i])) return;
+      shown = state;
       const summary = watcher.ledger.summary();
       write(count, `${summary?.presses ?? 0} ${summary?.presses === 1 ? "press" : "presses"}`);
       empty.hidden = summary !== null;
@@ -35,9 +39,6 @@ export function ledger(): Part {
       const { right, wrong, lead, calibration } = summary;
       const texts = [percent(right), percent(wrong), duration(lead), calibration?.toFixed(3) ?? "–"];
       figures.forEach(({ value }, i) => write(value, texts[i] as string));
-      const state = JSON.stringify(summary.bins);
-      if (state === shown) return;
-      shown = state;
       points.replaceChildren(...circles(summary));
       chart.setAttribute("aria-label", describe(summary));
     },
