@@ -100,11 +100,10 @@ class PageWatcher implements Watcher, PointerSinks {
       this.#kept = null;
       if (this.#state !== "stopped") this.#calls.report(error);
     });
-    const settings = () => this.#settings;
     this.#calls = new Calls(platform, () => this.#settings.onError);
     this.#intents = new Intents(
       platform,
-      settings,
+      () => this.#settings,
       () => this.#hands.values(),
       this.#calls,
       () => this.#request(),
