@@ -21,7 +21,7 @@ await main(import.meta.url, async () => {
   await ensureChromium();
   const host = await serve(root);
   const browser = await launch();
-  const page = await browser.newPage({ viewport: { width: 1280, height: 760 }, deviceScaleFactor: 1.5, colorScheme: "dark" });
+  const page = await browser.newPage({ viewport: { width: 1280, height: 810 }, deviceScaleFactor: 1.5, colorScheme: "dark" });
   await page.goto(`${host.url}examples/dom/overlay.html`);
   await page.click("#look");
   await page.waitForSelector("whither-overlay", { state: "attached" });
