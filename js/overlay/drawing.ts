@@ -20,9 +20,9 @@ const WAYS = 4;
 const LEAST = 0.03;
 const TIMES = Array.from({ length: 21 }, (_, i) => i / 20);
 
-/** When the forecast is drawn (s), and its contour: the pointer is within it four times in five, by a chi-squared of 2 degrees. */
+/** When the forecast is drawn (s), and its contour in deviations, the root of -2 ln .2: the pointer is within it four times in five. */
 const HORIZONS = [0.1, 0.2];
-const CONTOUR = Math.sqrt(-2 * Math.log(0.2));
+const CONTOUR = 1.7941;
 
 /** Of the pointer's trail so many places are kept. */
 const TRAIL = 40;
