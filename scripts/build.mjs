@@ -18,7 +18,7 @@ const bundles = [
 ];
 
 /** Entries that every page which watches waits for: a file each. Those beside `whither/dom` import that as `#dom`. */
-const pages = ["dom", "react", "links", "overlay"];
+const pages = ["dom", "react", "links", "overlay", "menu"];
 
 /** For resolvers that do not read `exports`: files next to package.json, where they look for `whither/slim` and the others. */
 const stubs = ["slim", "pointing", "study", "testing", ...pages];

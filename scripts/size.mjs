@@ -24,6 +24,7 @@ const parts = [
   { name: "`whither/testing`", files: ["testing.js", "error.js"] },
   { name: "`whither/links`, besides `whither/dom`", files: ["links.js"], budget: budgets.links },
   { name: "`whither/overlay`, beside `whither/dom`", files: ["overlay.js"] },
+  { name: "`whither/menu`, beside `whither/dom`", files: ["menu.js"] },
   { name: "`whither`, as it is packed", files: ["index.js", "shared.js", "error.js", "bytes.js"], budget: budgets.whither },
   { name: "of it the JavaScript", files: ["index.js", "shared.js", "error.js"] },
   { name: "its file of WebAssembly", files: ["whither.wasm"] },

@@ -44,20 +44,21 @@ const RUST: [(&str, &[&str]); 16] = [
 const METHODS: [&str; 5] = ["algorithm1", "algorithm2", "bridging", "pseudo_observation/dense", "single_filter"];
 
 /// Each folder of js/ and the others that it may import.
-const JAVASCRIPT: [(&str, &[&str]); 9] = [
+const JAVASCRIPT: [(&str, &[&str]); 10] = [
     ("core", &[]),
     ("pointing", &["core"]),
     ("study", &["core"]),
     ("dom", &["core"]),
     ("links", &["core"]),
+    ("menu", &["core"]),
     ("overlay", &["core"]),
     ("react", &[]),
     ("testing", &["core"]),
-    ("entries", &["core", "pointing", "dom", "links", "overlay", "react", "testing", "study"]),
+    ("entries", &["core", "pointing", "dom", "links", "menu", "overlay", "react", "testing", "study"]),
 ];
 
 /// Folders of entries beside `whither/dom`: they import its public names, as `#dom`.
-const BESIDE_DOM: [&str; 3] = ["links", "overlay", "react"];
+const BESIDE_DOM: [&str; 4] = ["links", "menu", "overlay", "react"];
 
 /// Folders of which another may import types alone: its code comes later, by `import()`.
 const TYPES: [(&str, &str); 1] = [("dom", "pointing")];

@@ -55,6 +55,8 @@ test("the package", async (t) => {
       "dist/links.js.map",
       "dist/overlay.js",
       "dist/overlay.js.map",
+      "dist/menu.js",
+      "dist/menu.js.map",
       "dist/pointing-bytes.js",
       "dist/pointing-workerd.js",
       "dist/pointing-workerd.js.map",
@@ -83,6 +85,7 @@ test("the package", async (t) => {
       "dist/types/index.d.ts",
       "dist/types/links.d.ts",
       "dist/types/overlay.d.ts",
+      "dist/types/menu.d.ts",
       "dist/types/pointing.d.ts",
       "dist/types/react.d.ts",
       "dist/types/shared.d.ts",
@@ -108,6 +111,8 @@ test("the package", async (t) => {
       "links.js",
       "overlay.d.ts",
       "overlay.js",
+      "menu.d.ts",
+      "menu.js",
       "package.json",
       "pointing.d.ts",
       "pointing.js",
@@ -168,6 +173,7 @@ test("the package", async (t) => {
       "dom",
       "links",
       "overlay",
+      "menu",
       "prediction",
       "react",
       "testing",
@@ -183,7 +189,7 @@ test("the package", async (t) => {
 
   await t.test("carries what learns in whither/study alone", () => {
     const shipped = ["index", "shared", "slim", "workerd", "pointing", "pointing-workerd", "dom", "prediction"];
-    for (const name of [...shipped, "links", "overlay", "react", "testing"]) {
+    for (const name of [...shipped, "links", "menu", "overlay", "react", "testing"]) {
       assert.doesNotMatch(read(`dist/${name}.js`).toString(), /study/, `dist/${name}.js`);
     }
     const exported = (bytes) => WebAssembly.Module.exports(new WebAssembly.Module(bytes)).map(({ name }) => name);

@@ -18,7 +18,7 @@ test("the front page of the interface's documentation", async (t) => {
   await t.test("leads to every entry of the package and to what matters first", () => {
     const links = [...content.matchAll(/href="([\w./-]+\.html)"/g)].map(([, link]) => link);
     for (const link of links) assert.ok(existsSync(join(pages, link)), `${link} leads nowhere`);
-    for (const entry of ["index", "dom", "react", "pointing", "slim", "study", "testing", "links", "overlay"])
+    for (const entry of ["index", "dom", "react", "pointing", "slim", "study", "testing", "links", "overlay", "menu"])
       assert.ok(links.includes(`modules/${entry}.html`), `no link to ${entry}`);
     for (const name of [
       "classes/index.Predictor",
@@ -28,6 +28,9 @@ test("the front page of the interface's documentation", async (t) => {
       "functions/react.useIntent",
       "functions/testing.hand",
       "functions/links.links",
+      "functions/menu.menu",
+      "functions/menu.heldOpen",
+      "functions/menu.handleClose",
       "functions/study.fit",
     ]) {
       assert.ok(links.includes(`${name}.html`), `no link to ${name}`);

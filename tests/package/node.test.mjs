@@ -131,7 +131,7 @@ test("in Node", async (t) => {
       // what Node's own loader reads of the global object while it loads
       await import("./nothing.mjs");
       const node = touched.splice(0);
-      const entries = ["", "/slim", "/pointing", "/dom", "/links", "/overlay", "/testing", "/study"];
+      const entries = ["", "/slim", "/pointing", "/dom", "/links", "/menu", "/overlay", "/testing", "/study"];
       for (const entry of entries) await import("whither" + entry);
       for (const [name, descriptor] of present) if (descriptor.configurable) Object.defineProperty(globalThis, name, descriptor);
       console.log(JSON.stringify({ watched: present.size, touched: touched.filter((name) => !node.includes(name)) }));`;

@@ -34,6 +34,7 @@ test("the package's names", async (t) => {
       "./testing",
       "./links",
       "./overlay",
+      "./menu",
       "./study",
       "./whither.wasm",
       "./pointing.wasm",
