@@ -1,6 +1,7 @@
 // The declarations for strict users, whatever else they have.
 import { test } from "node:test";
 import assert from "node:assert/strict";
+import { mkdirSync, symlinkSync } from "node:fs";
 import { join } from "node:path";
 import { capture, root } from "../../scripts/run.mjs";
 import { project, strict, write } from "./support.mjs";
@@ -90,6 +91,7 @@ const onPage = `
 import { links as ahead, type Exclusion, type LinksStats } from "whither/links";
 import { watch, WhitherError, type Inspection, type Intent, type Snapshot, type VirtualTarget, type Watcher, type WatchOptions } from "whither/dom";
 import { overlay, type Overlay, type OverlayOptions } from "whither/overlay";
+import { handleClose, heldOpen, menu, type Closing, type HeldOpen, type Menu, type MenuOptions } from "whither/menu";
 import { PointerPredictor } from "whither/pointing";
 import type { Track } from "whither/study";
 
@@ -153,6 +155,22 @@ export const stats: LinksStats = loading.stats();
 export const excluded: Exclusion | null = loading.excluded(loading.watcher.targets[0]!);
 // @ts-expect-error: a mechanism is one of three, or a function
 ahead({ mechanism: "own" });
+
+const menuOptions: MenuOptions = {
+  submenu: (item) => item.querySelector("ul"),
+  onOpen: ({ item, panel }) => panel.append(item.id),
+  onClose: ({ why }) => console.log(why === "closed"),
+  bound: undefined,
+};
+const menus: Menu = menu(document.body, menuOptions);
+export const opened: Element[] = menus.open.map(({ panel }) => panel);
+const held: HeldOpen = heldOpen(document.body, () => document.querySelectorAll(".card"), {
+  onClose: ({ why, probability, over }: Closing) => console.log(why, probability, over?.id),
+});
+held.update({ delay: 100 });
+export const blocks: boolean = handleClose({ release: 0.3 }).__options.blockPointerEvents;
+// @ts-expect-error: something has to close it
+heldOpen(document.body, document.body, {});
 // @ts-expect-error: there is no such option
 watch("a", { treshold: 0.8 });
 // @ts-expect-error: there is no such reason
@@ -215,6 +233,19 @@ test("the declarations compile", async (t) => {
   await t.test("for a CommonJS file", async () => {
     const text = 'import whither = require("whither"); import { fit } from "whither/study"; export = [whither.init(), fit];';
     await compiles({ "common.cts": text }, { target: "ES2022", lib: ["ES2022"], module: "nodenext" });
+  });
+
+  await t.test("and floating-ui takes what handleClose returns", async () => {
+    mkdirSync(join(folder, "node_modules/@floating-ui"), { recursive: true });
+    symlinkSync(join(root, "node_modules/@floating-ui/react"), join(folder, "node_modules/@floating-ui/react"));
+    const text = `import type { UseHoverProps } from "@floating-ui/react"; import { handleClose } from "whither/menu";
+      export const props: UseHoverProps = { handleClose: handleClose({ blockPointerEvents: true }) };
+      // @ts-expect-error: it takes one
+      export const wrong: UseHoverProps = { handleClose: handleClose };`;
+    await compiles(
+      { "floating.ts": text },
+      { ...users["a bundler and the DOM"], lib: [...dom, "DOM.Iterable"], skipLibCheck: true },
+    );
   });
 
   await t.test("and `using` frees", async () => {
