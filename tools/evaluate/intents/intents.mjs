@@ -1,8 +1,8 @@
 // `npm run evaluate -- --intents FILE...`: what whither/dom's intents are worth on recorded movements, by its options; with `--wandering` in
 // place of `--intents`: in streams of them, of which some lead to nothing.
 import { existsSync } from "node:fs";
-import { readFile, rm } from "node:fs/promises";
-import { basename, join } from "node:path";
+import { rm } from "node:fs/promises";
+import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 import { bundle } from "../../../scripts/bundle.mjs";
@@ -13,7 +13,7 @@ import { Pool } from "./pool.mjs";
 import { LEGEND, print, write } from "./report.mjs";
 import { optionsOf, REASONS, rowsOf, rowsOfStreams } from "./rows.mjs";
 import { printStreams, STREAM_LEGEND, writeStreams } from "./stream-report.mjs";
-import { readTrack } from "./tracks.mjs";
+import { nameOf, readLines, readTrack } from "./tracks.mjs";
 import { SHARES } from "./wandering.mjs";
 
 /** Lines that are scored at once. */
@@ -126,18 +126,4 @@ function sumsOf(sets, set, user, make) {
   const sums = users.get(user) ?? make();
   sets.set(set, users.set(user, sums));
   return sums;
-}
-
-function nameOf(file) {
-  return basename(file).replace(/\.[^.]*$/, "");
-}
-
-/** The lines of a file that are not empty, `{ number, text }`. */
-async function readLines(file) {
-  try {
-    const lines = (await readFile(file, "utf8")).split("\n");
-    return lines.map((text, i) => ({ text, number: i + 1 })).filter(({ text }) => text.trim() !== "");
-  } catch (error) {
-    throw new Failure(`${file} cannot be read: ${error.message}`);
-  }
 }

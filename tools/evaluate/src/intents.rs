@@ -1,12 +1,12 @@
-//! The intents of `whither/dom`, which runs in Node: `intents/intents.mjs` replays the tracks and prints.
+//! What stands on `whither/dom`, which runs in Node: `intents/intents.mjs` and `menus/menus.mjs` replay the tracks and print.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Replays the tracks of `files`, with those of the program's flags that are given.
-pub fn run(files: &[PathBuf], json: &Path, flags: &[(&str, bool)]) -> Result<(), String> {
+/// Replays the tracks of `files` by a program of this folder, with those of its flags that are given.
+pub fn run(program: &str, files: &[PathBuf], json: &Path, flags: &[(&str, bool)]) -> Result<(), String> {
     let status = Command::new("node")
-        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/intents/intents.mjs"))
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(program))
         .args(flags.iter().filter(|(_, given)| *given).map(|(flag, _)| flag))
         .arg("--json")
         .arg(json)
@@ -14,5 +14,5 @@ pub fn run(files: &[PathBuf], json: &Path, flags: &[(&str, bool)]) -> Result<(),
         .args(files)
         .status()
         .map_err(|error| format!("node does not start: {error}"))?;
-    if status.success() { Ok(()) } else { Err("the intents were not measured, see above".to_owned()) }
+    if status.success() { Ok(()) } else { Err("nothing was measured, see above".to_owned()) }
 }

@@ -117,6 +117,13 @@ struct Arguments {
     /// wrong intents a minute, and what they are worth where there is a press, by the threshold and the prior of "none".
     #[arg(long, conflicts_with_all = NOT_OF_INTENTS, conflicts_with = "intents")]
     wandering: bool,
+    /// Instead, lay menus around the tracks and replay them through whither/menu, floating-ui's safePolygon and a delay: panels closed on
+    /// the way to them, and held on the way elsewhere. On the half of the users on which nothing was tuned.
+    #[arg(long, conflicts_with_all = NOT_OF_INTENTS, conflicts_with_all = ["intents", "wandering", "users", "shake", "streams"])]
+    menus: bool,
+    /// With --menus, the other half of the users, with the values that were compared on them.
+    #[arg(long, requires = "menus")]
+    tuned: bool,
     /// With --intents, every combination of these in the report, too.
     #[arg(long, requires = "intents")]
     grid: bool,
@@ -167,14 +174,16 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         });
     }
     if arguments.intents {
-        return intents::run(
-            &arguments.files,
-            &arguments.json,
-            &[("--users", arguments.users), ("--grid", arguments.grid)],
-        );
+        let flags = [("--users", arguments.users), ("--grid", arguments.grid)];
+        return intents::run("intents/intents.mjs", &arguments.files, &arguments.json, &flags);
     }
     if arguments.wandering {
-        return intents::run(&arguments.files, &arguments.json, &[("--wandering", true), ("--users", arguments.users)]);
+        let flags = [("--wandering", true), ("--users", arguments.users)];
+        return intents::run("intents/intents.mjs", &arguments.files, &arguments.json, &flags);
+    }
+    if arguments.menus {
+        let flags = [("--tuned", arguments.tuned)];
+        return intents::run("menus/menus.mjs", &arguments.files, &arguments.json, &flags);
     }
     let mut results = Results::default();
     let mut skipped = 0;
@@ -329,6 +338,7 @@ mod tests {
                 && !refused("evaluate --habits")
                 && !refused("evaluate a.jsonl --intents --users --grid")
                 && !refused("evaluate a.jsonl --wandering --users")
+                && !refused("evaluate a.jsonl --menus --tuned")
                 && !refused("evaluate a.jsonl --more --thresholds")
         );
         for line in [
@@ -344,6 +354,8 @@ mod tests {
             "evaluate a --wandering --intents",
             "evaluate a --wandering --more",
             "evaluate a --thresholds --sweep",
+            "evaluate a --menus --intents",
+            "evaluate a --tuned",
         ] {
             assert!(refused(line), "{line}");
         }
