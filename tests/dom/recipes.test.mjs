@@ -1,4 +1,4 @@
-// The recipes of docs/dom.md: pages in examples/dom/, over which Chromium's mouse moves.
+// The recipes of docs/dom.md and docs/menu.md: pages in examples/dom/, over which Chromium's mouse moves.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
@@ -50,17 +50,23 @@ describe("the recipes", () => {
   }
 
   it("are in the documentation word for word", () => {
-    const text = readFileSync(join(root, "docs/dom.md"), "utf8");
-    const names = [...text.matchAll(/\]\(\.\.\/examples\/dom\/(\w+)\.html\)/g)].map(([, name]) => name);
-    assert.deepEqual(names, ["highlight", "prefetch", "enlarge", "canvas", "list", "store", "events", "learn"]);
-    for (const name of names) {
-      const page = readFileSync(join(root, `examples/dom/${name}.html`), "utf8");
-      const [, script] = page.match(/<script type="module">\n(.*?) {4}<\/script>/s);
-      assert.ok(text.includes(`\`\`\`js\n${script.replace(/^ {6}/gm, "").trim()}\n\`\`\``), `the script of ${name}.html`);
+    const dom = readFileSync(join(root, "docs/dom.md"), "utf8");
+    const menu = readFileSync(join(root, "docs/menu.md"), "utf8");
+    for (const [text, expected] of [
+      [dom, ["highlight", "prefetch", "enlarge", "canvas", "list", "store", "events", "learn"]],
+      [menu, ["menu"]],
+    ]) {
+      const names = [...text.matchAll(/\]\(\.\.\/examples\/dom\/(\w+)\.html\)/g)].map(([, name]) => name);
+      assert.deepEqual(names, expected);
+      for (const name of names) {
+        const page = readFileSync(join(root, `examples/dom/${name}.html`), "utf8");
+        const [, script] = page.match(/<script type="module">\n(.*?) {4}<\/script>/s);
+        assert.ok(text.includes(`\`\`\`js\n${script.replace(/^ {6}/gm, "").trim()}\n\`\`\``), `the script of ${name}.html`);
+      }
     }
     const worker = readFileSync(join(root, "examples/dom/learn.js"), "utf8");
     const code = worker.replace("../../dist/index.js", "whither").replace("../../dist/study.js", "whither/study");
-    assert.ok(text.includes(`\`\`\`js\n${code.trim()}\n\`\`\``), "learn.js");
+    assert.ok(dom.includes(`\`\`\`js\n${code.trim()}\n\`\`\``), "learn.js");
   });
 
   it("highlight: lights the button before the mouse is over it, by styles alone", async (t) => {
@@ -147,6 +153,37 @@ describe("the recipes", () => {
     assert.equal(await page.locator("article").textContent(), "All clear");
     await hand.play(movement(to, { x: 40, y: 660 }, 40, { seed: 4 }));
     await page.waitForFunction(() => document.querySelector("article").textContent === "");
+  });
+
+  it("menu: a submenu and a card stay open on the way to them; keys and fingers open, too", async (t) => {
+    const { page, hand } = await open(t, "menu");
+    const isOpen = (id) => page.locator(`#${id} > ul`).isVisible();
+    const from = await middle(page, "#open > button");
+    await hand.play([[0, from.x, from.y]]);
+    await page.locator("#open > ul").waitFor();
+    await hand.rest(REST);
+    // across the items below
+    await hand.play(movement(from, await middle(page, "#bembridge"), 32, { seed: 2 }));
+    assert.equal(await isOpen("open"), true);
+    await hand.rest(REST);
+    await hand.play(movement(await middle(page, "#bembridge"), await middle(page, "#export > button"), 32, { seed: 3 }));
+    await page.locator("#export > ul").waitFor();
+    assert.equal(await isOpen("open"), false);
+    const word = await middle(page, "#word");
+    await hand.play(movement(await middle(page, "#export > button"), word, 32, { seed: 4 }));
+    await page.locator("#card").waitFor();
+    assert.equal(await isOpen("export"), false);
+    await hand.rest(REST);
+    await hand.play(movement(word, await middle(page, "#more"), 32, { seed: 5 }));
+    await hand.rest(REST);
+    assert.equal(await page.locator("#card").isVisible(), true);
+    await hand.play(movement(await middle(page, "#more"), { x: 950, y: 100 }, 60, { seed: 6 }));
+    await page.locator("#card").waitFor({ state: "hidden" });
+    // a key opens what the pointer rests far from, and it stays
+    await page.locator("#share > button").focus();
+    await page.keyboard.press("Enter");
+    await hand.rest(REST);
+    assert.equal(await isOpen("share"), true);
   });
 
   it("learn: states how many presses it takes, and learns from them in a worker", async (t) => {
