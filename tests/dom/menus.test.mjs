@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { capture } from "../../scripts/run.mjs";
-import { isInside } from "../../tools/evaluate/intents/replay.mjs";
+import { isInside } from "../../tools/evaluate/intents/tracks.mjs";
 import { judge } from "../../tools/evaluate/menus/figures.mjs";
 import { KINDS, sceneOf } from "../../tools/evaluate/menus/scenes.mjs";
 import { simulated } from "../../tools/evaluate/menus/simulated.mjs";
@@ -105,17 +105,17 @@ describe("npm run evaluate -- --menus", () => {
     assert.ok(wrong("300 ms", "sibling") > 0.2);
   });
 
-  it("has the peer's own code at work: it closes few on the way of a simulated hand, and holds none", () => {
-    assert.ok(wrong("safePolygon", "panel") < 0.1);
+  it("has the peer's own code at work: it closes up to two thirds on the way of a hand that makes detours, and holds none", () => {
+    assert.ok(wrong("safePolygon", "panel") < 0.67);
     assert.ok(wrong("safePolygon", "away") < 0.05);
   });
 
-  it("has whither/menu close at most 3% on the way, and hold at most 12% of what goes elsewhere", (t) => {
+  it("has whither/menu close at most 8% on the way, and hold at most a quarter of what goes elsewhere", (t) => {
     for (const method of ["heldOpen", "handleClose"]) {
       const shares = ["panel", "sibling", "away"].map((kind) => wrong(method, kind));
       t.diagnostic(`${method}: ${shares.map((share) => (100 * share).toFixed(1)).join(", ")}%`);
       const [panel, ...held] = shares;
-      assert.ok(panel <= 0.03 && Math.max(...held) <= 0.12, shares.join());
+      assert.ok(panel <= 0.08 && Math.max(...held) <= 0.25, shares.join());
     }
   });
 

@@ -1,5 +1,5 @@
 // What holding was worth: counted for each scene, summed.
-import { isInside } from "../intents/replay.mjs";
+import { isInside } from "../intents/tracks.mjs";
 
 /**
  * Of one scene: whether the panel was `wrong`, closed before the pointer came to it or still open when it came elsewhere; and for how many

@@ -1,7 +1,8 @@
 // Menus laid around recorded movements: where the trigger, its siblings and the panel would have been. What is not stated by the
 // movement is drawn by the track's id, the same in every run.
 import { randomOf } from "../intents/random.mjs";
-import { approachOf, isInside } from "../intents/replay.mjs";
+import { approachOf } from "../intents/replay.mjs";
+import { isInside } from "../intents/tracks.mjs";
 
 /** Kinds of scenes: the movement goes into the panel, to a sibling of the trigger, or elsewhere. */
 export const KINDS = ["panel", "sibling", "away"];

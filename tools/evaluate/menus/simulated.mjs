@@ -1,5 +1,5 @@
-// Movements of a simulated hand, as tracks: to places in all directions, from 100 to 500 px away.
-import { movement } from "../../../tests/browser/hand.mjs";
+// Movements of the hand of whither/testing, as tracks: to places in all directions, from 100 to 500 px away.
+import { hand } from "whither/testing";
 import { randomOf } from "../intents/random.mjs";
 
 const COUNT = 600;
@@ -16,7 +16,7 @@ export function simulated() {
     const distance = DISTANCES[0] * (DISTANCES[1] / DISTANCES[0]) ** random();
     const size = SIZES[0] + (SIZES[1] - SIZES[0]) * random();
     const to = { x: distance * Math.cos(direction), y: distance * Math.sin(direction) };
-    const samples = movement({ x: 0, y: 0 }, to, size, { seed, rate: 60 });
+    const samples = hand({ x: 0, y: 0 }, to, { size, seed, rate: 60 });
     return { id: `simulated-${seed}`, user: `simulated-${seed}`, targets: [[to.x, to.y, size, size]], target: 0, samples };
   });
 }
