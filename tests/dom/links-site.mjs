@@ -139,7 +139,7 @@ window.isReady = true;</script></body></html>`;
     problems,
     hand,
     /** The hand comes from the middle towards a link, up to a share of the way; the link has to be meant before it is there. */
-    async reach(target, share = 0.8, { seed = 3 } = {}) {
+    async reach(target, share = 0.7, { seed = 3 } = {}) {
       const to = await place(target);
       await hand.play([[0, START.x, START.y]]);
       await hand.rest(REST);
