@@ -28,6 +28,8 @@ const parts = {
     await check("cargo", ["clippy", ...wasmTarget, ...pointing, "--", "-D", "warnings"]);
     await check("cargo", ["doc", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" });
     await tests("cargo", ["test", "--package", "whither", "--package", "whither-kernel", "--features", "whither/fit"]);
+    // whose tests replay movements through the built package
+    await build();
     await tests("cargo", ["test", "--package", "evaluate", "--package", "reproduce"]);
   },
   async wasm() {
