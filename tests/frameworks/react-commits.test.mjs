@@ -207,23 +207,25 @@ eachReact(({ version, site, open }) => {
     await nextFrame(page);
   });
 
-  it("what an Activity hides is not watched until it shows again", { skip: version < 19 }, async (t) => {
-    const { page } = await open(t);
-    await page.evaluate(async () => {
-      const { h, Activity, Intent, placed } = kit;
-      const button = (id) => h(Intent, { as: "button", id, key: id, style: placed(id) });
-      window.show = (mode) => kit.render([button("a"), h(Activity, { mode, key: "activity" }, button("b"))]);
-      await show("visible");
+  // React 18 has none
+  if (version >= 19)
+    it("what an Activity hides is not watched until it shows again", async (t) => {
+      const { page } = await open(t);
+      await page.evaluate(async () => {
+        const { h, Activity, Intent, placed } = kit;
+        const button = (id) => h(Intent, { as: "button", id, key: id, style: placed(id) });
+        window.show = (mode) => kit.render([button("a"), h(Activity, { mode, key: "activity" }, button("b"))]);
+        await show("visible");
+      });
+      for (const [mode, ids] of [
+        ["visible", ["a", "b"]],
+        ["hidden", ["a"]],
+        ["visible", ["a", "b"]],
+      ]) {
+        await page.evaluate((mode) => show(mode), mode);
+        assert.deepEqual(await watched(page), ids, mode);
+      }
     });
-    for (const [mode, ids] of [
-      ["visible", ["a", "b"]],
-      ["hidden", ["a"]],
-      ["visible", ["a", "b"]],
-    ]) {
-      await page.evaluate((mode) => show(mode), mode);
-      assert.deepEqual(await watched(page), ids, mode);
-    }
-  });
 
   it("rows that come and go are let go of, and nothing listens when all are gone", async (t) => {
     const { page, hand } = await open(t);

@@ -1,5 +1,4 @@
 // What the tests of frameworks share: their packages, installed apart, and pages that are bundled with them and opened in Chromium.
-import { after, before } from "node:test";
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync } from "node:fs";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -7,13 +6,12 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import * as esbuild from "esbuild";
-import { launch } from "../../scripts/chromium.mjs";
 import { incremental } from "../../scripts/incremental.mjs";
 import { root, run } from "../../scripts/run.mjs";
-import { serve } from "../../scripts/serve.mjs";
 import { movement } from "../browser/hand.mjs";
 import { mouse, nextFrame, REST } from "../browser/support.mjs";
 
+export { hosted } from "../dom/support.mjs";
 export { nextFrame, REST };
 
 /** A project with what package.json beside this file names, which stays from run to run. */
@@ -84,22 +82,6 @@ export async function inNode(program, options) {
   } finally {
     await rm(made, { recursive: true });
   }
-}
-
-/** A browser and an address for pages, from before the first test of the group in which this is called until after its last. */
-export function hosted() {
-  const site = {};
-  let host;
-  before(async () => {
-    host = await serve(join(root, "dist"));
-    site.url = host.url;
-    site.browser = await launch();
-  });
-  after(async () => {
-    await site.browser?.close();
-    await host?.close();
-  });
-  return site;
 }
 
 /**
