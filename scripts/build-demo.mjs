@@ -1,30 +1,30 @@
-// `npm run build:demo`: www/dist/, the page for any static host and any sub-path.
+// `npm run build:demo`: www/dist/, the pages for any static host and any sub-path, and the package packed beside them.
+import { readFile, rename } from "node:fs/promises";
 import { join } from "node:path";
 import { build } from "./build.mjs";
 import { incremental } from "./incremental.mjs";
-import { main, root, run } from "./run.mjs";
+import { capture, Failure, main, root, run } from "./run.mjs";
 
 export const folder = join(root, "www/dist");
 
 export async function buildDemo() {
   await build();
-  const inputs = ["dist", "www", "package-lock.json", "scripts/build-demo.mjs"];
+  const packed = ["dist", "docs", "examples", "package.json", "README.md", "CHANGELOG.md", "ARCHITECTURE.md"];
+  const inputs = [...packed, "www", "package-lock.json", "scripts/build-demo.mjs", "scripts/size.mjs"];
   await incremental("demo", { inputs, ignore: "www/dist", outputs: ["www/dist/index.html"] }, async () => {
     await run("node", ["node_modules/typescript/bin/tsc", "--project", "www"]);
     const vite = await import("vite");
-    await vite.build({
-      root: join(root, "www"),
-      configFile: false,
-      base: "./",
-      logLevel: "warn",
-      build: {
-        outDir: folder,
-        emptyOutDir: true,
-        target: "es2022",
-        rollupOptions: { input: ["index.html", "sequences/index.html"].map((page) => join(root, "www", page)) },
-      },
-    });
+    await vite.build({ configFile: join(root, "www/vite.config.js") });
+    await pack();
   });
+}
+
+/** What `npm install` takes from beside the pages. */
+async function pack() {
+  const { version } = JSON.parse(await readFile(join(root, "package.json"), "utf8"));
+  const { code, output } = await capture("npm", ["pack", "--ignore-scripts", "--silent", "--pack-destination", folder]);
+  if (code !== 0) throw new Failure(`npm pack failed: ${output}`);
+  await rename(join(folder, `whither-${version}.tgz`), join(folder, "whither.tgz"));
 }
 
 await main(import.meta.url, buildDemo);

@@ -28,9 +28,7 @@ await main(import.meta.url, async () => {
   await build({ dev: true });
   const { createServer } = await import("vite");
   const server = await createServer({
-    root: join(root, "www"),
-    configFile: false,
-    logLevel: "warn",
+    configFile: join(root, "www/vite.config.js"),
     // the package as it is, not a copy in Vite's own cache
     optimizeDeps: { exclude: ["whither"] },
     server: { port, strictPort: true, fs: { allow: [root] }, watch: { ignored: [join(root, "dist/**")] } },

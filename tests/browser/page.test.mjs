@@ -170,7 +170,7 @@ describe("page", () => {
   it("states why it cannot start", async () => {
     const strict = await serve("default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self'");
     const { page, close } = await open(site.browser, strict.url);
-    assert.match((await read(page)).status, /^The predictor could not start: .*wasm-unsafe-eval/);
+    assert.match((await read(page)).status, /^This page could not start: .*wasm-unsafe-eval/);
     await close();
     await strict.close();
   });

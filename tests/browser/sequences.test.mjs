@@ -1,12 +1,9 @@
 // The page of the conditionally Markov sequences.
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
-import { launch, open, serve } from "./support.mjs";
+import { isReady, launch, open, serve } from "./support.mjs";
 
-const SEQUENCES = {
-  path: "sequences/index.html",
-  ready: () => (document.querySelector("#kind")?.textContent ?? "–") !== "–" || document.documentElement.dataset.failed,
-};
+const SEQUENCES = "sequences/index.html";
 
 /** The facts, after the next frame. */
 function facts(page) {
@@ -160,19 +157,10 @@ describe("the page of the sequences", () => {
     await close();
   });
 
-  for (const width of [360, 900, 1280, 2560]) {
-    it(`fits ${width} px`, async () => {
-      const { page, problems, close } = await opened({ viewport: { width, height: 800 } });
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-      assert.deepEqual(problems, []);
-      await close();
-    });
-  }
-
   it("is reached from the first page, and leads back", async () => {
     const { page, problems, close } = await open(browser, server.url);
     await page.locator('a[href$="sequences/index.html"]').first().click();
-    await page.waitForFunction(SEQUENCES.ready);
+    await page.waitForFunction(isReady);
     await page.locator(".name a").click();
     await page.waitForSelector("button[data-destination]");
     assert.deepEqual(problems, []);

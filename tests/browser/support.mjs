@@ -8,7 +8,8 @@ import { movement } from "./hand.mjs";
 export { launch };
 
 /** Nothing from elsewhere, nothing inline; WebAssembly is all that the package needs. */
-const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; font-src 'self'; img-src 'self'";
+export const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; font-src 'self'; img-src 'self'";
 
 /** Serves the built page from a sub-path, as on any shared static host. */
 export function serve(policy = POLICY) {
@@ -16,11 +17,11 @@ export function serve(policy = POLICY) {
 }
 
 /** The page's address and a browser, from before the first test of the group in which this is called until after its last. */
-export function hosted() {
+export function hosted(policy) {
   const site = {};
   let host;
   before(async () => {
-    host = await serve();
+    host = await serve(policy);
     site.url = host.url;
     site.browser = await launch();
   });
@@ -31,16 +32,14 @@ export function hosted() {
   return site;
 }
 
-/** The car's screen: ready once it shows probabilities. */
-const SCREEN = {
-  path: "",
-  ready: () => (document.querySelector("#none")?.textContent ?? "–") !== "–" || document.documentElement.dataset.failed,
-};
+/** Runs in the page: whether it is ready, or has stated why it cannot be. */
+export const isReady = () => ["ready", "failed"].some((state) => state in document.documentElement.dataset);
 
-/** A page that is ready, with everything that it must not do collected in `problems`. */
-export async function open(browser, url, options = {}, { path, ready } = SCREEN) {
+/** A page that is ready, with everything that it must not do collected in `problems`; `keeps` it lets it keep itself for later visits. */
+export async function open(browser, url, { keeps = false, ...options } = {}, path = "index.html") {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...options });
   const page = await context.newPage();
+  if (!keeps) await page.addInitScript(() => delete Navigator.prototype.serviceWorker);
   await page.addInitScript(watchShifts);
   await page.addInitScript(keepShown);
   const problems = [];
@@ -56,7 +55,7 @@ export async function open(browser, url, options = {}, { path, ready } = SCREEN)
     if (response.status() >= 400) problems.push(`${response.status()}: ${response.url()}`);
   });
   await page.goto(url + path);
-  await page.waitForFunction(ready);
+  await page.waitForFunction(isReady);
   return { page, problems, close: () => context.close() };
 }
 

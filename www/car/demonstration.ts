@@ -1,6 +1,6 @@
 /** What the page shows of its two watchers: one follows the visitor, the other the ghost, which counts for nothing. */
 import { watch, type Outcome, type Release, type Snapshot, type Watcher, type WatchOptions } from "whither/dom";
-import { DEFAULTS, isSame, NONE, type Settings } from "./belief/settings.ts";
+import { DEFAULTS, isSame, NONE, type Settings } from "./model/settings.ts";
 import { GHOST, type Stage } from "./ghost.ts";
 import type { Point } from "./geometry.ts";
 import { History } from "./history.ts";
@@ -94,7 +94,7 @@ export class Demonstration {
     if (isSame(settings, before)) return;
     const options = isSame(settings, DEFAULTS)
       ? { constants: undefined, predictor: undefined }
-      : await (await import("./belief/models.ts")).optionsOf(settings);
+      : await (await import("./model/models.ts")).optionsOf(settings);
     if (isSame(settings, this.#settings)) update(options);
   }
 

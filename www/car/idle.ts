@@ -4,7 +4,7 @@
  */
 import { PointerPredictor } from "whither/pointing";
 import { hand } from "whither/testing";
-import { DEFAULTS, NONE } from "./belief/settings.ts";
+import { DEFAULTS, NONE } from "./model/settings.ts";
 import type { Box } from "./geometry.ts";
 import type { Moment } from "./history.ts";
 import type { Press } from "./press.ts";

@@ -9,16 +9,12 @@ import { Chart } from "./view/chart.ts";
 import { controls } from "./view/controls.ts";
 import { Fan } from "./view/fan.ts";
 import { Numbers } from "./view/numbers.ts";
+import { begin, part, reasonOf } from "../shared/page.ts";
 import { onResolution } from "../shared/resolution.ts";
 import { Screen } from "./view/screen.ts";
 import { INVITATIONS } from "./view/sentences.ts";
 import { theme } from "../shared/theme.ts";
 import { Status } from "../shared/status.ts";
-
-/** An element that index.html promises. */
-function part<T extends HTMLElement = HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
 
 /** The movement that the chart shows before there is another one: across the screen. */
 const EXAMPLE = { from: PLACES.findIndex(({ id }) => id === "fuel"), to: PLACES.findIndex(({ id }) => id === "seats") };
@@ -84,11 +80,4 @@ async function start(): Promise<void> {
   }
 }
 
-function reasonOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
-}
-
-start().catch((error: unknown) => {
-  status.write(`The predictor could not start: ${reasonOf(error)}`, true);
-  document.documentElement.dataset["failed"] = "true";
-});
+begin(status, start);

@@ -1,5 +1,7 @@
 /** Puts the page of the sequences together: settings in, flights and predictions out. */
 import { init } from "whither";
+import { begin, part } from "../shared/page.ts";
+import { Playback } from "../shared/playback.ts";
 import { onResolution } from "../shared/resolution.ts";
 import { theme } from "../shared/theme.ts";
 import { Status } from "../shared/status.ts";
@@ -14,25 +16,21 @@ const MEASURED = 9;
 /** Milliseconds from one measurement to the next while it plays. */
 const PACE = 110;
 
-/** An element that index.html promises. */
-function part<T extends HTMLElement = HTMLElement>(id: string): T {
-  return document.getElementById(id) as T;
-}
-
 const status = new Status(part("status"), part("announcement"));
 
 async function start(): Promise<void> {
   const map = new FlightMap(part<HTMLCanvasElement>("canvas"));
-  const slider = part<HTMLInputElement>("measured");
-  const play = part<HTMLButtonElement>("play");
   await init();
   await document.fonts.ready;
 
   let settings: Settings = PAPER;
   let seed = 7;
-  let measured = MEASURED;
   let airliner = new Airliner(settings, seed);
-  let playing = 0;
+  const playback = new Playback(
+    { play: part("play"), slider: part("measured") },
+    { last: STEPS - 1, pace: PACE, text: (step) => `${step} of ${STEPS} steps`, moved: () => refresh(false) },
+    MEASURED,
+  );
 
   /** Everything is drawn once a frame, from what is then the case. */
   let stale = { model: false, frame: 0 };
@@ -46,10 +44,9 @@ async function start(): Promise<void> {
       airliner = new Airliner(settings, seed);
     }
     stale = { model: false, frame: 0 };
+    const measured = playback.place;
     const { directed, markov } = airliner.predict(measured);
     map.draw(airliner, measured, directed);
-    slider.value = String(measured);
-    slider.setAttribute("aria-valuetext", `${measured} of ${STEPS} steps`);
     const end = at(airliner.followed, STEPS);
     part("so-far").textContent = `${measured} of ${STEPS}`;
     part("deviation").textContent = length(deviation(directed));
@@ -59,7 +56,7 @@ async function start(): Promise<void> {
     part("kind").textContent = airliner.kind();
     part("remove").hidden = settings.waypoint === null;
     status.show(known(measured, directed, markov));
-    if (!playing) status.announce(known(measured, directed, markov));
+    if (!playback.playing) status.announce(known(measured, directed, markov));
   };
 
   const set = (change: Partial<Settings>) => {
@@ -80,29 +77,6 @@ async function start(): Promise<void> {
   part("another").addEventListener("click", () => {
     seed += 1;
     refresh(true);
-  });
-
-  const stop = () => {
-    clearInterval(playing);
-    playing = 0;
-    play.textContent = "Play";
-    refresh(false);
-  };
-  play.addEventListener("click", () => {
-    if (playing) return stop();
-    if (measured >= STEPS - 1) measured = 0;
-    play.textContent = "Pause";
-    status.announce("Playing.");
-    playing = window.setInterval(() => {
-      measured += 1;
-      if (measured >= STEPS - 1) stop();
-      refresh(false);
-    }, PACE);
-  });
-  slider.addEventListener("input", () => {
-    measured = Number(slider.value);
-    if (playing) stop();
-    refresh(false);
   });
 
   const fit = () => {
@@ -131,7 +105,4 @@ function error({ end: { mean } }: Prediction, x: number, y: number): number {
   return Math.hypot((mean[0] ?? 0) - x, (mean[1] ?? 0) - y);
 }
 
-start().catch((error: unknown) => {
-  status.write(`The sequences could not start: ${error instanceof Error ? error.message : String(error)}`, true);
-  document.documentElement.dataset["failed"] = "true";
-});
+begin(status, start);

@@ -1,6 +1,6 @@
 /** The folded controls: method, noise, quadrature points, threshold. */
 import type { Method } from "whither";
-import { DEFAULTS, METHODS, pointsOf, type Settings } from "../belief/settings.ts";
+import { DEFAULTS, METHODS, pointsOf, type Settings } from "../model/settings.ts";
 import { percent } from "./format.ts";
 import { showValue } from "../../shared/slider.ts";
 

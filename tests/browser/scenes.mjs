@@ -1,0 +1,15 @@
+// The pages of the demo. What holds for all of them is in scenes.test.mjs.
+import { PAGES } from "../../www/frame.js";
+import { head, mouse } from "./support.mjs";
+
+/** Uses a page until every text and number is on it, by its path; where there is none they are from the beginning. */
+const FILLED = {
+  "index.html": async (page) => {
+    const hand = await mouse(page);
+    const { end } = await head(page, hand, "fuel", "connections", { seed: 5 });
+    await hand.press(end);
+  },
+};
+
+/** `{ path, name, fill(page) }` for each page, in the order of the navigation. */
+export const SCENES = PAGES.map(({ path, name }) => ({ path, name, fill: FILLED[path] ?? (() => Promise.resolve()) }));

@@ -1,0 +1,11 @@
+/** What the build knows of the package; vite.config.js writes it. */
+declare const __WHITHER__: {
+  readonly version: string;
+  readonly license: string;
+  /** The address of its source; null as long as it has none. */
+  readonly repository: string | null;
+  /** Bytes under gzip of `whither/dom`. */
+  readonly dom: number;
+  /** Bytes under gzip of `whither/pointing`. */
+  readonly pointing: number;
+};
