@@ -1,5 +1,6 @@
 // The page of the conditionally Markov sequences.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { after, before, describe, it } from "node:test";
 import { isReady, launch, open, serve } from "./support.mjs";
 
@@ -11,7 +12,7 @@ function facts(page) {
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
     const text = (id) => document.querySelector(`#${id}`).textContent;
     return Object.fromEntries(
-      ["so-far", "deviation", "markov-deviation", "error", "markov-error", "kind", "status"].map((id) => [id, text(id)]),
+      ["so-far", "deviation", "markov-deviation", "error", "markov-error", "kind", "given", "status"].map((id) => [id, text(id)]),
     );
   });
 }
@@ -53,6 +54,7 @@ describe("the page of the sequences", () => {
     assert.equal(found.deviation, "32 m"); // the paper's C_N: nine measurements hold no information on 30 m in 128 km
     assert.ok(metres(found["markov-deviation"]) > 1000, found["markov-deviation"]);
     assert.equal(found.kind, "reciprocal, not Markov");
+    assert.match(found.given, /The first is also given where it will land, to 32 m\.$/);
     assert.match(found.status, /^After 9 measurements the landing place is known to 32 m; /);
     assert.equal(await page.locator("#announcement").textContent(), found.status);
     assert.deepEqual(problems, []);
@@ -120,7 +122,7 @@ describe("the page of the sequences", () => {
     for (const [soFar, deviation, markov, status] of frames) {
       assert.equal(
         status,
-        `After ${Number.parseInt(soFar, 10)} measurements the landing place is known to ${deviation}; without a destination to ${markov}.`,
+        `After ${Number.parseInt(soFar, 10)} measurements the landing place is known to ${deviation}; to ${markov} from the motion alone.`,
       );
     }
     assert.ok(new Set(frames.map(([soFar]) => soFar)).size >= 5);
@@ -155,6 +157,17 @@ describe("the page of the sequences", () => {
     assert.ok((await drawing(page)) !== paper);
     assert.deepEqual(problems, []);
     await close();
+  });
+
+  it("shows lines of code that run as shown", async (test) => {
+    const { page, close } = await opened();
+    const file = new URL("../../www/sequences/example.js", import.meta.url);
+    assert.equal(await page.locator("#listing").textContent(), (await readFile(file, "utf8")).trim());
+    await close();
+    const log = test.mock.method(console, "log", () => {});
+    await import(file);
+    const [middle, end] = log.mock.calls[0].arguments;
+    assert.ok(Math.abs(middle[0] - 66_000) < 1000 && Math.abs(end[0] - 1000) < 1, `${middle} ${end}`);
   });
 
   it("is reached from the first page, and leads back", async () => {

@@ -7,6 +7,7 @@ import { theme } from "../shared/theme.ts";
 import { Status } from "../shared/status.ts";
 import { Airliner, at, PAPER, STEPS, type Prediction, type Settings } from "./airliner.ts";
 import { Controls } from "./controls.ts";
+import example from "./example.js?raw";
 import { length } from "./length.ts";
 import { FlightMap } from "./map.ts";
 import { Waypoint } from "./waypoint.ts";
@@ -17,6 +18,7 @@ const MEASURED = 9;
 const PACE = 110;
 
 const status = new Status(part("status"), part("announcement"));
+part("listing").textContent = example.trim();
 
 async function start(): Promise<void> {
   const map = new FlightMap(part<HTMLCanvasElement>("canvas"));
@@ -54,6 +56,7 @@ async function start(): Promise<void> {
     part("error").textContent = length(error(directed, end.x, end.y));
     part("markov-error").textContent = length(error(markov, end.x, end.y));
     part("kind").textContent = airliner.kind();
+    part("given").textContent = given(settings);
     part("remove").hidden = settings.waypoint === null;
     status.show(known(measured, directed, markov));
     if (!playback.playing) status.announce(known(measured, directed, markov));
@@ -90,10 +93,16 @@ async function start(): Promise<void> {
   refresh(false);
 }
 
+/** What the two models know before the first measurement. */
+function given({ destination, waypoint }: Settings): string {
+  const also = waypoint === null ? "" : ", and the waypoint";
+  return `Both are given how an airliner moves and where the flight began. The first is also given where it will land, to ${length(destination)}${also}.`;
+}
+
 /** The numbers in a sentence. */
 function known(measured: number, directed: Prediction, markov: Prediction): string {
   const after = measured === 1 ? "After 1 measurement" : `After ${measured} measurements`;
-  return `${after} the landing place is known to ${length(deviation(directed))}; without a destination to ${length(deviation(markov))}.`;
+  return `${after} the landing place is known to ${length(deviation(directed))}; to ${length(deviation(markov))} from the motion alone.`;
 }
 
 /** One deviation of the landing place, over both axes. */
