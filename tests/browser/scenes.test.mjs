@@ -6,7 +6,7 @@ import { describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
 import { collisions } from "./collisions.mjs";
 import { SCENES } from "./scenes.mjs";
-import { hosted, isReady, open, POLICY, shifts } from "./support.mjs";
+import { hosted, isReady, nextFrame, open, POLICY, shifts } from "./support.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -63,6 +63,7 @@ for (const { path, name, fill } of SCENES) {
         await unfolded(page, fill);
         assert.deepEqual(await page.evaluate(collisions), []);
         await page.evaluate(() => (document.documentElement.style.fontSize = "200%"));
+        await nextFrame(page);
         assert.deepEqual(await page.evaluate(collisions), []);
         assert.deepEqual(problems, []);
         await close();
@@ -117,6 +118,14 @@ for (const { path, name, fill } of SCENES) {
       assert.equal(await page.evaluate(isReady), false);
       release();
       await page.waitForFunction(isReady);
+      await close();
+    });
+
+    it("keeps still where motion is to be reduced", async () => {
+      const { page, close } = await fresh({ reducedMotion: "reduce" });
+      const before = await page.screenshot();
+      await page.waitForTimeout(1500);
+      assert.ok(before.equals(await page.screenshot()));
       await close();
     });
 
