@@ -1,4 +1,4 @@
-// The README's own code, followed to the letter: compiled by strict TypeScript, run in Node, and on pages over which the real mouse
+// The code of the README and of the pages where it goes on, followed to the letter: compiled by strict TypeScript, run in Node, and on pages over which the real mouse
 // moves.
 import { after, before, describe, it, test } from "node:test";
 import assert from "node:assert/strict";
@@ -13,8 +13,16 @@ import { mouse, nextFrame, REST } from "../browser/support.mjs";
 import { project, strict, write } from "./support.mjs";
 
 const readme = readFileSync(join(root, "README.md"), "utf8");
-const blocks = (language) => [...readme.matchAll(new RegExp(`^\`\`\`${language}\n(.*?)^\`\`\``, "gms"))].map(([, code]) => code);
-const [watching, onAPage, inNode, projecting, learning, ...rest] = blocks("js");
+const blocks = (language, name = "README.md") =>
+  [...readFileSync(join(root, name), "utf8").matchAll(new RegExp(`^\`\`\`${language}\n(.*?)^\`\`\``, "gms"))].map(
+    ([, code]) => code,
+  );
+const [watching, onAPage, inNode, projecting, learning, ...rest] = [
+  "README.md",
+  "docs/drawing.md",
+  "docs/scenarios.md",
+  "docs/learning.md",
+].flatMap((name) => blocks("js", name));
 
 test("the README's code", async (t) => {
   const { folder, tarball } = await project(t);
