@@ -1,6 +1,8 @@
 // A server of static files, with no more features than common static hosts.
 import { createReadStream, existsSync, statSync } from "node:fs";
 import { createServer } from "node:http";
+import { createGzip } from "node:zlib";
+import { pipeline } from "node:stream";
 import { extname, join, normalize, sep } from "node:path";
 import { Failure } from "./run.mjs";
 
@@ -16,6 +18,9 @@ const types = {
   ".webmanifest": "application/manifest+json",
   ".woff2": "font/woff2",
 };
+
+/** What gzip makes smaller. */
+const compressible = /^(text|image\/svg|application\/(json|wasm|manifest))/;
 
 /** The port that the variable PORT names. */
 export function wantedPort() {
@@ -36,8 +41,10 @@ export function serve(folder, { port = 0, path = "/", headers = {} } = {}) {
       return;
     }
     const type = types[extname(file)] ?? "application/octet-stream";
-    response.writeHead(200, { "content-type": type, "cache-control": "no-cache", ...headers });
-    createReadStream(file).pipe(response);
+    const packed = compressible.test(type) && /\bgzip\b/.test(request.headers["accept-encoding"] ?? "");
+    const encoding = packed ? { "content-encoding": "gzip", vary: "accept-encoding" } : {};
+    response.writeHead(200, { "content-type": type, "cache-control": "no-cache", ...encoding, ...headers });
+    pipeline(packed ? [createReadStream(file), createGzip(), response] : [createReadStream(file), response], () => {});
   });
   return new Promise((resolve, reject) => {
     server.on("error", (error) => {
