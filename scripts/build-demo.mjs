@@ -1,4 +1,4 @@
-// `npm run build:demo`: www/dist/, the pages for any static host and any sub-path, and the package packed beside them.
+// `npm run build:demo`: www/dist/, the pages for any static host and any sub-path; beside them the documentation and the package, packed.
 import { readFile, rename } from "node:fs/promises";
 import { join } from "node:path";
 import { build } from "./build.mjs";
@@ -16,6 +16,16 @@ export async function buildDemo() {
     const vite = await import("vite");
     await vite.build({ configFile: join(root, "www/vite.config.js") });
     await pack();
+  });
+  await buildDocs();
+}
+
+/** The documents, and the interface from the comments in js/. A warning is an error. */
+async function buildDocs() {
+  const inputs = ["docs", "js", "typedoc.json", "scripts/documents.mjs", "scripts/docs.css", "examples", "package-lock.json"];
+  await incremental("documentation", { inputs, outputs: ["www/dist/docs/index.html"] }, async () => {
+    const { code, output } = await capture("node", ["node_modules/typedoc/bin/typedoc", "--options", "typedoc.json"]);
+    if (code !== 0) throw new Failure(output);
   });
 }
 

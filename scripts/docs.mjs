@@ -1,9 +1,10 @@
-// `npm run docs`: docs/api, the pages of the JavaScript interface, from the comments in js/. A warning is an error.
-import { build } from "./build.mjs";
-import { main, run } from "./run.mjs";
-import { during } from "./stage.mjs";
+// `npm run docs`: the documentation, served beside the demo.
+import { buildDemo, folder } from "./build-demo.mjs";
+import { main } from "./run.mjs";
+import { serve, wantedPort } from "./serve.mjs";
 
 await main(import.meta.url, async () => {
-  await build();
-  await during("writing the pages", () => run("node", ["node_modules/typedoc/bin/typedoc", "--options", "typedoc.json"]));
+  await buildDemo();
+  const { url } = await serve(folder, { port: wantedPort() });
+  console.log(`\nThe documentation is at ${url}docs/ (Ctrl+C stops it)`);
 });

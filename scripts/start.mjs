@@ -9,5 +9,5 @@ await main(import.meta.url, async () => {
   await (await serve(folder, { port })).close();
   await buildDemo();
   const { url } = await serve(folder, { port });
-  console.log(`\nThe page is at ${url} (Ctrl+C stops it)`);
+  console.log(`\nThe demo is at ${url}, the documentation at ${url}docs/ (Ctrl+C stops both)`);
 });

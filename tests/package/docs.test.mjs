@@ -1,12 +1,12 @@
-// The pages that `npm run docs` writes: what a newcomer reads first.
+// The pages that `npm run docs` serves: what a newcomer reads first, and that every link leads somewhere.
 import { test } from "node:test";
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { join, posix } from "node:path";
 import { capture, root } from "../../scripts/run.mjs";
 import { project, write } from "./support.mjs";
 
-test("the front page of the interface's documentation", async (t) => {
+test("the documentation", async (t) => {
   const { folder } = await project(t);
   const pages = join(folder, "api");
   const typedoc = join(root, "node_modules/typedoc/bin/typedoc");
@@ -14,6 +14,35 @@ test("the front page of the interface's documentation", async (t) => {
   assert.equal(code, 0, output);
   const front = readFileSync(join(pages, "index.html"), "utf8");
   const [content] = front.match(/<div class="col-content">.*?<div class="col-sidebar">/s);
+
+  await t.test("has every document, and no link that leads nowhere", () => {
+    // media are the examples that the documents link to
+    const files = readdirSync(pages, { recursive: true }).filter((name) => /^(?!media\/).*\.html$/.test(name));
+    assert.equal(
+      files.filter((name) => name.startsWith("documents/")).length,
+      readdirSync(join(root, "docs")).filter((name) => name.endsWith(".md") && name !== "interface.md").length,
+    );
+    const text = new Map(files.map((name) => [name, readFileSync(join(pages, name), "utf8")]));
+    const ids = new Map(
+      [...text].map(([name, page]) => [name, new Set([...page.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id))]),
+    );
+    const lost = [];
+    let found = 0;
+    for (const [name, page] of text) {
+      for (const [, link] of page.matchAll(/ (?:href|src)="([^"]+)"/g)) {
+        if (/^[a-z]+:/.test(link)) continue;
+        const [path, anchor] = link.replaceAll("&amp;", "&").split("#");
+        const target = path ? posix.join(posix.dirname(name), decodeURIComponent(path)) : name;
+        found += 1;
+        // the demo beside it
+        if (target === "../index.html") continue;
+        if (!existsSync(join(pages, target)) || (anchor && ids.has(target) && !ids.get(target).has(decodeURIComponent(anchor))))
+          lost.push(`${name}: ${link}`);
+      }
+    }
+    assert.ok(found > 1000, `${found} links`);
+    assert.deepEqual([...new Set(lost)], []);
+  });
 
   await t.test("leads to every entry of the package and to what matters first", () => {
     const links = [...content.matchAll(/href="([\w./-]+\.html)"/g)].map(([, link]) => link);
