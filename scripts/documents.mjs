@@ -19,6 +19,7 @@ export const GROUPS = {
     "rays-and-hands": "Rays and hands",
     learning: "Learning from recorded movements",
     platforms: "Where it runs",
+    errors: "Errors",
   },
   "What was measured": {
     accuracy: "In one page",
