@@ -20,11 +20,14 @@ export const GROUPS = {
     learning: "Learning from recorded movements",
     platforms: "Where it runs",
     errors: "Errors",
+    compare: "Beside other ways",
+    privacy: "Privacy, and people",
   },
   "What was measured": {
     accuracy: "In one page",
     pointing: "The pointing model",
     performance: "What it costs",
+    papers: "The papers, errata, patents",
   },
 };
 
