@@ -1,19 +1,14 @@
 /** What the car's screen offers: 21 places, in reading order. */
 import {
-  Armchair,
   Bluetooth,
   CalendarDays,
   Camera,
-  CircleGauge,
-  CircleParking,
   CircleQuestionMark,
   CircleUserRound,
   CloudSun,
   Fan,
   Fuel,
   LayoutGrid,
-  LifeBuoy,
-  Lightbulb,
   MessageSquare,
   Music,
   Navigation,
@@ -23,6 +18,7 @@ import {
   SlidersHorizontal,
   type IconNode,
 } from "lucide";
+import { DippedBeam, ParkingAid, Seat, SteeringWheel, TyrePressure } from "./icons.ts";
 
 export interface Place {
   readonly id: string;
@@ -36,17 +32,17 @@ export const PLACES: readonly Place[] = [
   { id: "radio", label: "Radio", icon: RadioTower },
   { id: "media", label: "Media", icon: Music },
   { id: "climate", label: "Climate", icon: Fan },
-  { id: "seats", label: "Seats", icon: Armchair },
+  { id: "seats", label: "Seats", icon: Seat },
   { id: "camera", label: "Camera", icon: Camera },
-  { id: "parking", label: "Parking", icon: CircleParking },
-  { id: "drive-mode", label: "Drive mode", icon: CircleGauge },
-  { id: "lights", label: "Lights", icon: Lightbulb },
+  { id: "parking", label: "Parking", icon: ParkingAid },
+  { id: "drive-mode", label: "Drive mode", icon: SteeringWheel },
+  { id: "lights", label: "Lights", icon: DippedBeam },
   { id: "apps", label: "Apps", icon: LayoutGrid },
   { id: "messages", label: "Messages", icon: MessageSquare },
   { id: "calendar", label: "Calendar", icon: CalendarDays },
   { id: "weather", label: "Weather", icon: CloudSun },
   { id: "fuel", label: "Fuel", icon: Fuel },
-  { id: "tyres", label: "Tyres", icon: LifeBuoy },
+  { id: "tyres", label: "Tyres", icon: TyrePressure },
   { id: "trip", label: "Trip", icon: Route },
   { id: "profile", label: "Profile", icon: CircleUserRound },
   { id: "connections", label: "Connections", icon: Bluetooth },

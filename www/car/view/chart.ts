@@ -3,16 +3,24 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Moment } from "../history.ts";
 import type { Press } from "../press.ts";
-import { bandsOf, OWN, stack, type Band } from "./bands.ts";
+import { bandsOf, OWN, spotOf, stack, type Band } from "./bands.ts";
 import { colours } from "../../shared/colours.ts";
-import { milliseconds } from "./format.ts";
-import { ranking } from "./order.ts";
+import { seconds } from "./format.ts";
 
 /** A movement shorter than this does not fill the width (seconds). */
 const SHORTEST = 0.6;
 
-const BANDS = ["band-1", "band-2", "band-3", "band-4", "band-5"] as const;
-const NAMES = [...BANDS, "text", "muted", "ground", "dim", "on-light", "on-band"] as const;
+/** Of each area its colour and that of its name. */
+const BANDS = [
+  ["band-1", "on-light"],
+  ["band-2", "on-band"],
+  ["band-3", "on-light"],
+  ["band-4", "on-band"],
+  ["band-5", "on-light"],
+  ["band-others", "on-band"],
+  ["band-none", "text"],
+] as const;
+const NAMES = [...BANDS.flat(), "muted", "ground", "dim"] as const;
 const NO_COLOURS = Object.fromEntries(NAMES.map((name) => [name, ""])) as Record<(typeof NAMES)[number], string>;
 
 export class Chart {
@@ -24,7 +32,7 @@ export class Chart {
   #start = 0;
   #rem = 0;
   #colours = NO_COLOURS;
-  #data: uPlot.AlignedData = [[], ...Array.from({ length: OWN + 1 }, () => [])];
+  #data: uPlot.AlignedData = [[], ...Array.from({ length: OWN + 2 }, () => [])];
 
   constructor(root: HTMLElement, labels: readonly string[]) {
     this.#root = root;
@@ -46,10 +54,10 @@ export class Chart {
   /** A movement under way, or with its press a finished one; an example is fainter. */
   draw(moments: readonly Moment[], press: Press | null, example = false): void {
     this.#root.toggleAttribute("data-example", example);
+    this.#root.setAttribute("aria-label", described(press));
     this.#start = moments[0]?.time ?? 0;
     this.#press = press;
-    const [leader = 0] = ranking(moments.at(-1)?.probabilities ?? []);
-    this.#bands = bandsOf(moments, this.#labels, press?.index ?? leader);
+    this.#bands = bandsOf(moments, this.#labels);
     const times = moments.map((moment) => moment.time - this.#start);
     const columns = this.#bands.map((band) => [...band.values]);
     if (press) {
@@ -96,11 +104,8 @@ export class Chart {
           },
           { ...axis, size: 3 * rem, splits: () => [0, 0.5, 1], values: (_, splits) => splits.map((split) => `${split * 100}%`) },
         ],
-        series: [
-          {},
-          ...this.#data.slice(1).map((_, place) => area(this.#colours[BANDS[place] ?? "band-5"], this.#colours.ground)),
-        ],
-        bands: Array.from({ length: OWN }, (_, place) => ({ series: [place + 2, place + 1] as [number, number] })),
+        series: [{}, ...BANDS.map(([fill]) => area(this.#colours[fill], this.#colours.ground))],
+        bands: Array.from({ length: OWN + 1 }, (_, place) => ({ series: [place + 2, place + 1] as [number, number] })),
         hooks: { draw: [(plot) => this.#annotate(plot)] },
       },
       this.#data,
@@ -132,7 +137,7 @@ export class Chart {
     context.lineWidth = 2 * devicePixelRatio;
     line(context, pressed, top - 1.6 * size, pressed, top + height);
     if (lead === 0) return;
-    const text = milliseconds(lead);
+    const text = seconds(lead);
     const half = context.measureText(text).width / 2 + size / 2;
     const middle = (since + pressed) / 2;
     const level = top - size;
@@ -145,28 +150,30 @@ export class Chart {
     context.fillText(text, fits ? middle : since - half, level);
   }
 
-  /** A name is placed at the centroid of its area, if there is room. */
+  /** A name is placed where its area has most room, if there is enough, and on none of the lines. */
   #nameBands(plot: uPlot, context: CanvasRenderingContext2D, size: number): void {
-    const times = this.#data[0] as number[];
-    const { left } = plot.bbox;
-    const named: { x: number; y: number; half: number }[] = [];
+    const xs = (this.#data[0] as number[]).map((time) => plot.valToPos(time, "x", true));
+    const lines = this.#press ? [this.#press.time, this.#press.time - this.#press.lead] : [];
+    const avoid = lines.map((time) => plot.valToPos(time - this.#start, "x", true));
+    const nothing = xs.map(() => 0);
+    // what was before the icon was lit is dimmed
+    const dimmed = avoid[1] ?? 0;
     this.#bands.forEach((band, place) => {
-      const at = heaviest(times, band.values);
-      const upper = (this.#data[place + 1] as number[])[at] ?? 0;
-      const lower = place === 0 ? 0 : ((this.#data[place] as number[])[at] ?? 0);
-      const room = plot.valToPos(lower, "y", true) - plot.valToPos(upper, "y", true);
-      if (room < 1.5 * size) return;
       const half = context.measureText(band.label).width / 2 + size / 2;
-      const right = plot.valToPos(times.at(-1) ?? 0, "x", true);
-      if (right - left < 2 * half) return;
-      const x = Math.min(right - half, Math.max(left + half, plot.valToPos(times[at] ?? 0, "x", true)));
-      const y = plot.valToPos((upper + lower) / 2, "y", true);
-      if (named.some((other) => Math.abs(other.x - x) < other.half + half && Math.abs(other.y - y) < 1.2 * size)) return;
-      named.push({ x, y, half });
-      context.fillStyle = place === 0 ? this.#colours["on-light"] : this.#colours["on-band"];
-      context.fillText(band.label, x, y);
+      const below = place === 0 ? nothing : (this.#data[place] as number[]);
+      const spot = spotOf(xs, below, this.#data[place + 1] as number[], half, avoid);
+      if (!spot || spot.room * plot.bbox.height < 1.5 * size) return;
+      context.fillStyle = this.#colours[spot.x < dimmed ? "text" : (BANDS[place]?.[1] ?? "text")];
+      context.fillText(band.label, spot.x, plot.valToPos(spot.y, "y", true));
     });
   }
+}
+
+/** The chart of a press, for who cannot look at it. */
+function described(press: Press | null): string {
+  if (!press) return "Probabilities over the movement, stacked";
+  const lit = press.lead > 0 ? `lit ${seconds(press.lead)} before the press` : "not lit before the press";
+  return `Probabilities over the movement, stacked: ${press.label} ${lit}`;
 }
 
 /** What a rem is now, in px. */
@@ -174,23 +181,8 @@ function remOf(): number {
   return Number.parseFloat(getComputedStyle(document.documentElement).fontSize);
 }
 
-/** The sample nearest to the middle of an area's weight. */
-function heaviest(times: readonly number[], values: readonly number[]): number {
-  let sum = 0;
-  let moment = 0;
-  values.forEach((value, index) => {
-    sum += value ** 2;
-    moment += value ** 2 * (times[index] ?? 0);
-  });
-  const middle = moment / sum;
-  return values.reduce(
-    (best, _, index) => (Math.abs((times[index] ?? 0) - middle) < Math.abs((times[best] ?? 0) - middle) ? index : best),
-    0,
-  );
-}
-
 function area(fill: string, edge: string): uPlot.Series {
-  return { fill, stroke: edge, width: 1, points: { show: false } };
+  return { fill, stroke: edge, width: 1.5, points: { show: false } };
 }
 
 function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: number, y2: number): void {

@@ -1,4 +1,7 @@
-/** What is expected, drawn in light: a path to each of the leading three, and the forecast's one-deviation ellipse once it is informative. */
+/**
+ * What is expected, drawn in light: a path to each of the leading three that the movement has not passed, and the forecast's one-deviation
+ * ellipse once it is informative.
+ */
 import type { Gaussian } from "whither/dom";
 import { ellipse, isInformative } from "../../shared/ellipse.ts";
 import type { Point } from "../geometry.ts";
@@ -10,6 +13,9 @@ export interface Outlook {
   /** Where the pointer is on arrival. */
   readonly arrival: Gaussian | null;
 }
+
+/** A less probable path is not drawn. */
+const FAINTEST = 0.02;
 
 export class Fan {
   readonly #canvas: HTMLCanvasElement;
@@ -51,9 +57,11 @@ export class Fan {
     context.strokeStyle = this.#colour;
     context.fillStyle = this.#colour;
     context.lineCap = "round";
-    context.lineWidth = 1.5;
     for (const { probability, points } of paths) {
-      context.globalAlpha = probability;
+      if (probability < FAINTEST || turnsBack(points)) continue;
+      // the second and the third are visible beside the first, and thinner
+      context.globalAlpha = 0.25 + 0.75 * probability;
+      context.lineWidth = 1 + probability;
       trace(context, points);
       context.stroke();
     }
@@ -68,6 +76,18 @@ export class Fan {
     context.lineWidth = 1;
     context.stroke();
   }
+}
+
+/** A path longer than its ends are apart by this factor turns back: its icon has been passed. */
+const DETOUR = 1.5;
+
+/** Whether a path is a hook, to an icon that the movement has passed. */
+export function turnsBack(points: ArrayLike<number>): boolean {
+  const at = (place: number) => ({ x: points[2 * place] ?? 0, y: points[2 * place + 1] ?? 0 });
+  const apart = (one: Point, other: Point) => Math.hypot(other.x - one.x, other.y - one.y);
+  const last = points.length / 2 - 1;
+  const steps = Array.from({ length: Math.max(0, last) }, (_, place) => apart(at(place), at(place + 1)));
+  return steps.reduce((sum, step) => sum + step, 0) > DETOUR * apart(at(0), at(last));
 }
 
 /** A smooth line through x, y, x, y, ...: quadratic pieces between the middles. */

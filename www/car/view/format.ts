@@ -1,4 +1,4 @@
-/** Numbers in status, the same everywhere on the page. */
+/** Numbers in words, the same everywhere on the page. */
 
 export function percent(share: number): string {
   if (share > 0 && share < 0.005) return "<1%";
@@ -8,8 +8,4 @@ export function percent(share: number): string {
 
 export function seconds(time: number): string {
   return `${time.toFixed(2)} s`;
-}
-
-export function milliseconds(time: number): string {
-  return `${Math.round(time * 1000)} ms`;
 }
