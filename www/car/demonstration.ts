@@ -1,17 +1,20 @@
 /** What the page shows of its two watchers: one follows the visitor, the other the ghost, which counts for nothing. */
 import { watch, type Outcome, type Release, type Snapshot, type Watcher, type WatchOptions } from "whither/dom";
-import { DEFAULTS, isSame, NONE, type Settings } from "./model/settings.ts";
+import { DEFAULTS, isSame, type Settings } from "./model/settings.ts";
+import type { Ride } from "./devices.ts";
+import { Errands } from "./errands.ts";
 import { GHOST, type Stage } from "./ghost.ts";
 import type { Point } from "./geometry.ts";
 import { History } from "./history.ts";
 import type { Press } from "./press.ts";
+import { SHAKEN } from "./shaken.ts";
 import type { ProbabilityList } from "./view/probabilities.ts";
 import type { Chart } from "./view/chart.ts";
 import type { Fan } from "./view/fan.ts";
 import type { Numbers } from "./view/numbers.ts";
 import { ranking } from "./view/order.ts";
 import type { Screen } from "./view/screen.ts";
-import { prediction, sentence } from "./view/sentences.ts";
+import { outcome, prediction } from "./view/sentences.ts";
 import type { Status } from "../shared/status.ts";
 
 export interface Views {
@@ -21,6 +24,8 @@ export interface Views {
   readonly status: Status;
   readonly probabilityList: ProbabilityList;
   readonly numbers: Numbers;
+  /** Counts what was selected at the threshold. */
+  readonly tally: HTMLElement;
 }
 
 type Icon = HTMLButtonElement;
@@ -45,8 +50,11 @@ export class Demonstration {
   readonly #invitation: string;
   readonly #visitor: Watcher<Icon>;
   readonly #ghost: Watcher<Icon>;
+  readonly #errands: Errands;
   readonly #history = new History();
   #settings = DEFAULTS;
+  /** Whether the ghost plays. */
+  #simulated = false;
   /** The icons that are ringed, in the order in which their rings closed. */
   readonly #ringed = new Set<Icon>();
   #corner: Point | null = null;
@@ -56,17 +64,19 @@ export class Demonstration {
   #glowing: ReturnType<typeof setTimeout> | null = null;
   /** Whether it stays because of a press. */
   #pressed = false;
+  /** Whether the sentence is the outcome of a press, which stays until the next movement. */
+  #reported = false;
 
   /** `invitation` is the text shown while nothing moves. */
   constructor(labels: readonly string[], invitation: string, views: Views) {
     this.#labels = labels;
     this.#invitation = invitation;
     this.#views = views;
+    this.#errands = new Errands(labels, views, () => this.#rest(this.#simulated));
     this.#visitor = this.#watch(false);
     this.#ghost = this.#watch(true);
     this.#ghost.pause();
     addEventListener("scroll", () => (this.#corner = null), { capture: true, passive: true });
-    this.#quieten();
     views.status.show(invitation);
   }
 
@@ -80,7 +90,9 @@ export class Demonstration {
     const again = pointed && this.#pressed;
     if (this.#glowing === null) this.#quieten();
     screen.acknowledge(index);
-    if (!again) status.write(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
+    if (again) return;
+    this.#reported = true;
+    status.write(`${this.#labels[index]} pressed, without a movement to predict it from.`, true);
   }
 
   /** Takes settings: those that need other models than the default one load them first. */
@@ -90,29 +102,49 @@ export class Demonstration {
     const update = (options: WatchOptions<Icon>) => {
       for (const watcher of [this.#visitor, this.#ghost]) watcher.update(options);
     };
-    update({ threshold: settings.threshold });
+    update({ threshold: settings.threshold, none: settings.none });
     if (isSame(settings, before)) return;
-    const options = isSame(settings, DEFAULTS)
-      ? { constants: undefined, predictor: undefined }
+    const options = isSame({ ...settings, shake: 0 }, DEFAULTS)
+      ? { constants: { pointing: { shake: settings.shake } }, predictor: undefined }
       : await (await import("./model/models.ts")).optionsOf(settings);
     if (isSame(settings, this.#settings)) update(options);
   }
 
+  /** Follows the visitor's pointer itself, or what is handed on of it in its place. */
+  follow(handedOn: boolean): void {
+    this.#visitor.update({ pointers: handedOn ? [SHAKEN] : undefined });
+  }
+
+  /** Whether icons are selected when the ring closes. */
+  select(active: boolean): void {
+    this.#errands.activate(active);
+    this.#reported = false;
+    this.#rest(this.#simulated, true);
+  }
+
   /** The stage on which the ghost plays. */
-  stage(): Stage {
+  stage(ride: () => Ride): Stage {
     const { screen, status } = this.#views;
     return {
       targets: () => screen.measure(),
       corner: () => screen.corner(),
       visible: () => screen.isVisible(),
+      ride,
       enter: () => {
         status.announce("A simulated hand shows how it works. Move to take over.");
+        this.#simulated = true;
+        this.#errands.enter(true);
         this.#ghost.resume();
       },
+      heads: (index) => this.#errands.heads(index),
+      presses: () => !this.#errands.active,
       gone: () => {
         this.#ghost.pause();
+        this.#simulated = false;
+        this.#errands.enter(false);
         this.#quieten();
-        status.write(this.#invitation, true);
+        this.#reported = false;
+        this.#rest(false, true);
       },
     };
   }
@@ -121,15 +153,16 @@ export class Demonstration {
     const { icons } = this.#views.screen;
     const watcher = watch<Icon>(icons, {
       threshold: DEFAULTS.threshold,
-      none: NONE,
+      none: DEFAULTS.none,
       reasons: REASONS,
       reactivate: 0,
       load: "eager",
       learning: !simulated,
       target: (icon) => ({ name: this.#labelOf(icon) }),
       pointers: simulated ? [GHOST] : undefined,
-      onIntent: ({ target }) => {
+      onIntent: ({ target, remaining }) => {
         this.#ringed.add(target);
+        this.#errands.ringed(target, remaining);
         this.#describe(simulated);
       },
       onRelease: (release) => this.#release(release, simulated),
@@ -140,18 +173,20 @@ export class Demonstration {
   }
 
   #paint(watcher: Watcher<Icon>, { moving, none, intended }: Snapshot<Icon>, simulated: boolean): void {
-    const { screen, probabilityList, fan, chart, numbers, status } = this.#views;
+    const { screen, probabilityList, fan, chart, numbers } = this.#views;
     if (!moving) {
       this.#history.end();
-      probabilityList.rest(none);
       this.#corner = null;
+      probabilityList.rest(simulated ? "The simulated hand’s last" : "Your last movement");
+      this.#errands.rested();
       // what is ringed stays lit under a pointer that rests on it
       if (this.#glowing !== null || intended.length > 0) return;
       this.#glow(null);
-      status.show(this.#invitation);
+      this.#rest(simulated);
       return;
     }
     this.#cancel();
+    this.#reported = false;
     const probabilities = Float64Array.from(screen.icons, (icon) => watcher.probability(icon));
     const { remaining } = watcher;
     this.#history.add({ time: performance.now() / 1000, probabilities });
@@ -177,27 +212,31 @@ export class Demonstration {
     else if (this.#glowing === null) this.#describe(simulated);
   }
 
-  #judge(outcome: Outcome<Icon>, simulated: boolean): void {
+  #judge(judged: Outcome<Icon>, simulated: boolean): void {
     const { screen, chart, numbers, status } = this.#views;
-    const label = outcome.name ?? "";
     const press: Press = {
-      index: screen.icons.indexOf(outcome.target),
-      label,
-      time: outcome.time / 1000,
-      verdict: outcome.verdict,
-      mistaken: outcome.mistaken && this.#labelOf(outcome.mistaken),
-      lead: outcome.lead,
+      index: screen.icons.indexOf(judged.target),
+      label: judged.name ?? "",
+      time: judged.time / 1000,
+      verdict: judged.verdict,
+      mistaken: judged.mistaken && this.#labelOf(judged.mistaken),
+      lead: judged.lead,
     };
     if (!this.#pressed) this.#glowPressed(null);
     screen.acknowledge(press.index);
     chart.draw(this.#history.take(press.time - press.lead), press);
-    numbers.last(press, simulated);
-    if (simulated) return;
-    this.#judged = outcome.target;
+    numbers.last(press.label, simulated);
+    this.#reported = true;
+    const text = outcome(press, simulated);
+    if (simulated) {
+      status.show(`A simulated hand. ${text}`);
+      return;
+    }
+    this.#judged = judged.target;
     const summary = this.#visitor.ledger.summary();
-    if (summary) numbers.total(summary, outcome.learnt);
-    status.show(`${label} pressed.`);
-    status.announce(`${label} pressed: ${sentence(press)}.`, true);
+    if (summary) numbers.total(summary, judged.learnt);
+    this.#errands.pressed(press.index);
+    status.write(this.#errands.sentence ?? text, true);
   }
 
   #labelOf(icon: Icon): string {
@@ -206,9 +245,19 @@ export class Demonstration {
 
   #describe(simulated: boolean): void {
     const ringed = [...this.#ringed].at(-1);
-    const text = prediction(ringed ? this.#labelOf(ringed) : null);
+    const text = this.#errands.sentence ?? prediction(ringed ? this.#labelOf(ringed) : null);
     if (simulated) this.#views.status.show(`A simulated hand. ${text}`);
     else this.#views.status.write(text);
+  }
+
+  /** The sentence between movements: the outcome of a press stays. */
+  #rest(simulated: boolean, now = false): void {
+    if (this.#reported) return;
+    const { sentence } = this.#errands;
+    const text = sentence ?? this.#invitation;
+    if (simulated) this.#views.status.show(sentence ? `A simulated hand. ${sentence}` : text);
+    else if (now || sentence) this.#views.status.write(text, now);
+    else this.#views.status.show(text);
   }
 
   #glowPressed(held: Icon | null): void {
@@ -235,14 +284,12 @@ export class Demonstration {
     this.#views.screen.hold(null);
   }
 
-  /** As between movements. */
+  /** As between movements: dark, and what was last known of the probabilities stays, faint. */
   #quieten(fading = false): void {
-    const { screen, probabilityList, fan } = this.#views;
-    const probabilities = new Float64Array(screen.icons.length);
+    const { screen, fan } = this.#views;
     this.#cancel();
     screen.fade(fading);
-    screen.paint(probabilities);
-    probabilityList.paint({ probabilities, none: 1, remaining: null });
+    screen.paint(new Float64Array(screen.icons.length));
     if (!fading) fan.clear();
   }
 }

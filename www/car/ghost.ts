@@ -3,8 +3,10 @@
  * movements are pointer events of a type of their own, so that what follows them need not be what follows the visitor.
  */
 import { hand, random, type Sample as HandSample } from "whither/testing";
+import { observer, type Ride, type Sample } from "./devices.ts";
 import type { Box, Point } from "./geometry.ts";
-import { trail } from "./view/trail.ts";
+import { dispatch, ObservedEvent } from "./shaken.ts";
+import type { Cursor } from "./view/cursor.ts";
 
 /** The `pointerType` of its events. */
 export const GHOST = "ghost";
@@ -23,17 +25,11 @@ const PAUSE = 1;
  */
 const MANNER = { pace: 5.5, noise: 0.02, size: 6, rate: 100, resolution: 0, dwell: DWELL };
 
-/** Seconds and px that the trail is long and wide. */
-const TRAIL = 0.45;
-const TRAIL_WIDTH = 7;
+/** What it goes to is at least so many widths of an icon away. */
+const FAR = 2.5;
 
 /** The arrow points to the right of the icon's drawing, so that it does not hide it (shares of a box). */
 const ASIDE = { from: 0.23, to: 0.26 };
-
-/** Seconds on the page's clock, and px of the viewport. */
-interface Sample extends Point {
-  readonly time: number;
-}
 
 export interface Stage {
   /** The icons' boxes, in px of the viewport. */
@@ -42,37 +38,27 @@ export interface Stage {
   corner(): Point;
   /** Whether the screen is visible. */
   visible(): boolean;
+  /** What it points with, and over which road. */
+  ride(): Ride;
   enter(): void;
+  /** It sets out for an icon. */
+  heads(index: number): void;
+  /** Whether it presses what it arrives at. */
+  presses(): boolean;
   gone(): void;
 }
 
-export interface GhostParts {
-  readonly root: HTMLElement;
-  readonly arrow: SVGElement;
-  readonly trail: SVGElement;
-}
-
-/** An event of the ghost, at the moment that its sample is of. */
-class GhostEvent extends PointerEvent {
-  override readonly timeStamp: number;
-
-  constructor(type: "pointermove" | "pointerdown", { time, x, y }: Sample) {
-    const button = type === "pointerdown" ? 0 : -1;
-    super(type, { pointerType: GHOST, pointerId: -1, clientX: x, clientY: y, button, bubbles: true, composed: true });
-    this.timeStamp = time * 1000;
-  }
-}
-
 /** Plays whenever nothing was heard of a visitor for a while, until the returned function is called. */
-export function haunt(parts: GhostParts, stage: Stage): () => void {
+export function haunt(cursor: Cursor, stage: Stage): () => void {
   const controller = new AbortController();
+  const observed = observer(2);
   // the same movements for everybody
   const next = random(21);
   let seed = 0;
   let frame = 0;
   let timer = 0;
   let due = performance.now() + FIRST * 1000;
-  let places: Sample[] = [];
+  let place: Sample | null = null;
 
   const wait = () => {
     timer = window.setTimeout(
@@ -85,46 +71,36 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   };
 
   const appear = () => {
-    parts.root.hidden = false;
+    cursor.show(stage.ride().device);
     stage.enter();
     play(performance.now());
   };
 
   const vanish = () => {
     cancelAnimationFrame(frame);
-    if (parts.root.hidden) return;
-    parts.root.hidden = true;
-    places = [];
+    if (!cursor.visible) return;
+    cursor.hide();
+    place = null;
     stage.gone();
     wait();
   };
 
-  const show = (now: number) => {
-    const head = places.at(-1);
-    if (!head) return;
-    const corner = stage.corner();
-    const inside = ({ x, y }: Point) => ({ x: x - corner.x, y: y - corner.y });
-    const { x, y } = inside(head);
-    places = places.filter((place) => now - place.time <= TRAIL);
-    if (places.length === 0) places = [head];
-    parts.arrow.style.transform = `translate(${x}px, ${y}px)`;
-    parts.trail.setAttribute("d", trail(places.map(inside), TRAIL_WIDTH));
-  };
-
   const play = (set: number) => {
     const targets = stage.targets();
-    const from = places.at(-1) ?? { x: stage.corner().x - 30, y: targets.at(-1)?.y ?? 0 };
-    const far = targets
-      .map((_, index) => index)
-      .filter((index) => away(from, targets[index]) > 2.5 * (targets[index]?.width ?? 0));
-    const target = targets[far[Math.floor(next() * far.length)] ?? 0];
-    if (!target || !stage.visible()) {
+    const inView = targets.flatMap((target, index) => (isInView(target) ? [{ target, index }] : []));
+    const from: Point = place ?? { x: stage.corner().x - 30, y: inView.at(-1)?.target.y ?? 0 };
+    inView.sort((one, other) => away(from, other.target) - away(from, one.target));
+    const far = inView.filter(({ target }) => away(from, target) > FAR * target.width);
+    // where none is far, as on a phone, the farthest
+    const { target, index } = (far.length > 0 ? far[Math.floor(next() * far.length)] : inView[0]) ?? {};
+    if (index === undefined || !target) {
       vanish();
       return;
     }
     const aside = ASIDE.from + (ASIDE.to - ASIDE.from) * next();
     const aim = { x: target.x + aside * target.width, y: target.y + 0.1 * (next() - 0.5) * target.height };
     seed += 1;
+    stage.heads(index);
     follow(hand({ x: from.x, y: from.y }, aim, { ...MANNER, seed }), set);
   };
 
@@ -138,12 +114,15 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
       const until = samples.findIndex(([time], index) => time > elapsed || index === samples.length - 1);
       const passed = samples.slice(sent, until).map(([time, x, y]) => ({ time: set / 1000 + time, x, y }));
       sent = until;
-      dispatch("pointermove", passed);
-      places.push(...passed);
-      show(now / 1000);
+      place = passed.at(-1) ?? place;
+      const reported = passed.flatMap((sample) => observed(sample, stage.ride()) ?? []);
+      dispatch("pointermove", GHOST, reported);
+      cursor.add(reported);
+      cursor.draw(now / 1000, stage.corner());
       if (!pressed && elapsed > end) {
         pressed = true;
-        dispatch("pointerdown", [{ time: now / 1000, x, y }]);
+        const at = stage.presses() && observed({ time: now / 1000, x, y }, { ...stage.ride(), device: "mouse" });
+        if (at) dispatch("pointerdown", GHOST, [at]);
       } else if (elapsed > end + PAUSE) {
         play(now);
         return;
@@ -154,7 +133,7 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   };
 
   const input = (event: Event) => {
-    if (event instanceof GhostEvent) return;
+    if (event instanceof ObservedEvent) return;
     due = performance.now() + AGAIN * 1000;
     vanish();
   };
@@ -169,14 +148,11 @@ export function haunt(parts: GhostParts, stage: Stage): () => void {
   };
 }
 
-/** Dispatches events where the last sample is. */
-function dispatch(type: "pointermove" | "pointerdown", samples: readonly Sample[]): void {
-  const last = samples.at(-1);
-  if (!last) return;
-  const target = document.elementFromPoint(last.x, last.y) ?? document.documentElement;
-  for (const sample of samples) target.dispatchEvent(new GhostEvent(type, sample));
+/** Whether there is an icon where a box has its middle, and nothing over it. */
+function isInView({ x, y }: Box): boolean {
+  return document.elementFromPoint(x, y)?.closest("button") != null;
 }
 
-function away(from: Point, target: Point | undefined): number {
-  return target ? Math.hypot(target.x - from.x, target.y - from.y) : 0;
+function away(from: Point, to: Point): number {
+  return Math.hypot(to.x - from.x, to.y - from.y);
 }

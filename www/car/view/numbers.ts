@@ -1,11 +1,9 @@
-/** The outcome of the last press, and of all presses together. */
+/** Whose movement the chart shows, and the outcomes of all presses together. */
 import type { LedgerSummary, Outcome } from "whither/dom";
-import type { Press } from "../press.ts";
-import { milliseconds, percent } from "./format.ts";
-import { sentence } from "./sentences.ts";
+import { percent, seconds } from "./format.ts";
 
 export interface NumbersParts {
-  readonly lead: HTMLElement;
+  readonly caption: HTMLElement;
   readonly median: HTMLElement;
   readonly right: HTMLElement;
   readonly wrong: HTMLElement;
@@ -14,29 +12,28 @@ export interface NumbersParts {
 
 export class Numbers {
   readonly #parts: NumbersParts;
-  #under = "";
 
   constructor(parts: NumbersParts) {
     this.#parts = parts;
   }
 
   /** A simulated movement, before the first real one. */
-  example(press: Press): void {
-    this.#write(`An example, until you move. ${describe(press)}`);
+  example(): void {
+    this.#caption("An example, until you move");
   }
 
   /** A movement is under way. */
   movement(simulated: boolean): void {
-    this.#write(simulated ? "Simulated hand, under way" : "Under way");
+    this.#caption(simulated ? "A simulated hand, under way" : "Under way");
   }
 
-  last(press: Press, simulated: boolean): void {
-    this.#write(`${simulated ? "Simulated hand. " : ""}${describe(press)}`);
+  last(label: string, simulated: boolean): void {
+    this.#caption(simulated ? `A simulated hand, to ${label}` : `Yours, to ${label}`);
   }
 
   /** `learnt` is what the presses have taught about the visitor, if they do. */
   total({ presses, lead, right, wrong }: LedgerSummary, learnt: Outcome["learnt"]): void {
-    this.#parts.median.textContent = milliseconds(lead);
+    this.#parts.median.textContent = seconds(lead);
     this.#parts.right.textContent = percent(right);
     this.#parts.wrong.textContent = percent(wrong);
     const over = presses === 1 ? "Over 1 press" : `Over ${presses} presses`;
@@ -45,13 +42,8 @@ export class Numbers {
     this.#parts.presses.textContent = `${over}${taught}.`;
   }
 
-  #write(text: string): void {
-    if (text === this.#under) return;
-    this.#under = text;
-    this.#parts.lead.textContent = text;
+  #caption(text: string): void {
+    const { caption } = this.#parts;
+    if (caption.textContent !== text) caption.textContent = text;
   }
-}
-
-function describe(press: Press): string {
-  return `${press.label}: ${sentence(press)}`;
 }

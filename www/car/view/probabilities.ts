@@ -23,6 +23,9 @@ export interface ProbabilityListParts {
   readonly none: HTMLElement;
   readonly remaining: HTMLElement;
   readonly interval: HTMLElement;
+  /** What holds all of it, and the words that say what it is where it is not of now. */
+  readonly root: HTMLElement;
+  readonly note: HTMLElement;
 }
 
 export class ProbabilityList {
@@ -30,39 +33,45 @@ export class ProbabilityList {
   readonly #parts: ProbabilityListParts;
   /** The rows stay where they are, one for each rank: what moves is their light. */
   readonly #rows: readonly Row[];
-  #order: number[];
 
   constructor(parts: ProbabilityListParts, labels: readonly string[]) {
     this.#labels = labels;
     this.#parts = parts;
     this.#rows = Array.from({ length: SHOWN }, row);
-    this.#order = labels.map((_, index) => index);
     parts.rows.append(...this.#rows.map((each) => each.element));
   }
 
-  /** The most probable ones, in the order of the rows. */
-  leading(count: number): number[] {
-    return this.#order.slice(0, count);
+  /** Nothing moves: what is shown stays, faint, until the next movement. */
+  rest(note: string): void {
+    this.#parts.none.style.setProperty("--probability", "1");
+    this.#mark(note);
   }
 
-  /** The probability of none of them is another one by now; the numbers shown stay. */
-  rest(none: number): void {
-    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
+  /** What it shows before the first movement. */
+  example(posterior: Posterior, note: string): void {
+    this.paint(posterior);
+    this.rest(note);
   }
 
   paint({ probabilities, none, remaining }: Posterior): void {
-    this.#order = ranking(probabilities);
+    this.#mark("");
+    const order = ranking(probabilities);
     this.#rows.forEach(({ element, name, figure }, rank) => {
-      const index = this.#order[rank] ?? 0;
+      const index = order[rank] ?? 0;
       const probability = probabilities[index] ?? 0;
       write(name, this.#labels[index] ?? "");
       write(figure, percent(probability));
       element.style.setProperty("--share", probability.toFixed(4));
     });
-    this.rest(none);
+    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
     write(this.#parts.none, percent(none));
     write(this.#parts.remaining, remaining ? seconds(remaining.mean) : "–");
     write(this.#parts.interval, remaining ? `80%: ${remaining.low.toFixed(2)} to ${remaining.high.toFixed(2)} s` : "");
+  }
+
+  #mark(note: string): void {
+    write(this.#parts.note, note);
+    this.#parts.root.toggleAttribute("data-faint", note !== "");
   }
 }
 

@@ -63,6 +63,11 @@ export class Screen {
     this.#held = icon;
   }
 
+  /** Marks the icon to go to, and no other one. */
+  want(index: number | null): void {
+    this.icons.forEach((icon, at) => icon.toggleAttribute("data-wanted", at === index));
+  }
+
   /** While what was lit fades. */
   fade(fading: boolean): void {
     this.#root.toggleAttribute("data-fading", fading);
