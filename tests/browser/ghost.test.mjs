@@ -24,7 +24,7 @@ describe("ghost", () => {
     await page.clock.runFor(700);
     assert.equal(await visible(), true);
     await page.clock.runFor(4000);
-    assert.match(await page.locator("#lead").textContent(), /^Simulated hand\b/);
+    assert.match(await page.locator("#lead").textContent(), /^A simulated hand\b/);
     assert.match(await page.locator("#status").textContent(), /^A simulated hand\./);
     assert.equal(await page.locator("#median").textContent(), "–");
     await page.mouse.move(600, 300);

@@ -109,6 +109,7 @@ describe("page", () => {
       await page.locator("select[name=method]").selectOption(method);
       await page.locator("input[name=noise]").fill("0.5");
       await page.locator("input[name=points]").fill("21");
+      await page.evaluate(() => scrollTo(0, 0));
       await hand.play([[0, from.x, from.y]]);
       await hand.rest(REST);
       await hand.play(movement(from, to, to.width, { seed: 4, share: 0.8 }));

@@ -47,14 +47,15 @@ describe("recorded hands", { skip }, () => {
       ["median", "early-right", "early-wrong", "presses"].map((id) => document.getElementById(id).textContent),
     );
     test.diagnostic(
-      `right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; the page shows ${shown.join(", ")}`,
+      `right at 75% of the time: ${rightAtThreeQuarters} of ${count}; at the press: ${rightAtPress}; ` +
+        `rings: median lead ${shown[0]}, right ${shown[1]}, wrong ${shown[2]}. ${shown[3]}`,
     );
     assert.equal(count, 50);
     assert.match(shown[3], /^Over 50 presses\. Learnt from them:/);
     // Set with room below what was measured: 48, 46, 486 ms, 2%.
     assert.ok(rightAtThreeQuarters >= 38, `${rightAtThreeQuarters} right at 75% of the time`);
     assert.ok(rightAtPress >= 38, `${rightAtPress} right at the press`);
-    assert.ok(Number.parseInt(shown[0], 10) >= 300, `median lead ${shown[0]}`);
+    assert.ok(Number.parseFloat(shown[0]) >= 0.3, `median lead ${shown[0]}`);
     assert.ok(Number.parseInt(shown[2], 10) <= 20, `early and wrong ${shown[2]}`);
     assert.deepEqual(problems, []);
     await close();
