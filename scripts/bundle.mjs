@@ -6,7 +6,10 @@ import { pathToFileURL } from "node:url";
 import { build } from "esbuild";
 import { root } from "./run.mjs";
 
-/** The names with a `#` are files of the built package: its one class of errors, and what `whither/dom` loads later. */
+/**
+ * The names with a `#` are files of the built package: its one class of errors, and what `whither/dom` loads later. Packages, this one
+ * too, are those that are found from here.
+ */
 const built = {
   name: "built",
   setup({ onResolve }) {
@@ -14,6 +17,9 @@ const built = {
       const file = join(root, "dist", `${path.slice(1)}.js`);
       return { path: pathToFileURL(file).href, external: true };
     });
+    onResolve({ filter: /^[a-z@]/ }, ({ path, kind }) =>
+      kind === "entry-point" ? undefined : { path: import.meta.resolve(path), external: true },
+    );
   },
 };
 
@@ -27,7 +33,6 @@ export async function bundle(entryPoints) {
     bundle: true,
     platform: "node",
     format: "esm",
-    packages: "external",
     plugins: [built],
     logLevel: "warning",
   });

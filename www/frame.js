@@ -3,6 +3,7 @@
 /** Every page, in the order of the navigation. */
 export const PAGES = [
   { path: "index.html", name: "The car" },
+  { path: "bay/index.html", name: "Bay" },
   { path: "sequences/index.html", name: "Sequences" },
 ];
 

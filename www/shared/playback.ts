@@ -20,6 +20,8 @@ export class Playback {
   readonly #parts: PlaybackParts;
   readonly #options: PlaybackOptions;
   #place: number;
+  #last: number;
+  #pace: number;
   /** Where and when it began to play; null while it does not. */
   #from: { readonly place: number; readonly time: number } | null = null;
   #frame = 0;
@@ -28,8 +30,9 @@ export class Playback {
     this.#parts = parts;
     this.#options = options;
     this.#place = place;
+    this.#last = options.last;
+    this.#pace = options.pace;
     parts.slider.min = "0";
-    parts.slider.max = String(options.last);
     parts.play.addEventListener("click", () => (this.playing ? this.pause() : this.play()));
     parts.slider.addEventListener("input", () => this.set(Number(parts.slider.value)));
     this.#show();
@@ -45,7 +48,7 @@ export class Playback {
 
   /** From where it is; from the beginning where it is at its end. */
   play(): void {
-    if (this.#place >= this.#options.last) this.#place = 0;
+    if (this.#place >= this.#last) this.#place = 0;
     this.#from = { place: this.#place, time: performance.now() };
     this.#frame = requestAnimationFrame(this.#step);
     this.#changed();
@@ -56,19 +59,27 @@ export class Playback {
     this.#changed();
   }
 
+  /** From now on the last place is another one, or the pace; it stays where it is, or goes on playing from there. */
+  change({ last = this.#last, pace = this.#pace }: { readonly last?: number; readonly pace?: number }): void {
+    this.#last = last;
+    this.#pace = pace;
+    this.#place = Math.min(last, this.#place);
+    if (this.#from) this.#from = { place: this.#place, time: performance.now() };
+    this.#show();
+  }
+
   /** Goes to a place and stays there. */
   set(place: number): void {
     this.#stop();
-    this.#place = Math.min(this.#options.last, Math.max(0, place));
+    this.#place = Math.min(this.#last, Math.max(0, place));
     this.#changed();
   }
 
   readonly #step = () => {
     if (!this.#from) return;
     const { place, time } = this.#from;
-    const { last, pace } = this.#options;
-    const now = Math.min(last, place + Math.floor((performance.now() - time) / pace));
-    if (now === last) this.#stop();
+    const now = Math.min(this.#last, place + Math.floor((performance.now() - time) / this.#pace));
+    if (now === this.#last) this.#stop();
     else this.#frame = requestAnimationFrame(this.#step);
     if (now === this.#place) return;
     this.#place = now;
@@ -88,6 +99,7 @@ export class Playback {
   #show(): void {
     const { play, slider } = this.#parts;
     play.textContent = this.playing ? "Pause" : "Play";
+    slider.max = String(this.#last);
     slider.value = String(this.#place);
     slider.setAttribute("aria-valuetext", this.#options.text(this.#place));
   }
