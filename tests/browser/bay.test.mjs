@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { describe, it } from "node:test";
+import { collisions } from "./collisions.mjs";
 import { hosted, nextFrame, open } from "./support.mjs";
 
 const BAY = "bay/index.html";
@@ -228,6 +229,7 @@ describe("the bay", () => {
           document.querySelector(".row-name").textContent === "Kelder" &&
           Number(document.querySelector(".row").style.getPropertyValue("--share")) > 0.8,
       );
+      await page.waitForFunction(() => document.querySelector("#clock").textContent > "12:20");
       await page.mouse.move(from.x, from.y, { steps: 2 });
       await page.waitForFunction(() => /turned back/.test(document.querySelector("#anomalies").textContent));
       await page.mouse.move(end.x, end.y, { steps: 2 });
@@ -418,6 +420,20 @@ describe("the bay", () => {
       await close();
     }
   });
+
+  for (const width of [1280, 390, 360]) {
+    it(`has no text over another, cut or outside while one vessel is followed, as it is and at 200%, at ${width} px`, async () => {
+      const { page, problems, close } = await opened({ ...CALM, viewport: { width, height: 800 } });
+      await choose(page, "back");
+      await scrub(page, 0.9);
+      await page.locator("#controls summary").click();
+      assert.deepEqual(await page.evaluate(collisions), []);
+      await page.evaluate(() => (document.documentElement.style.fontSize = "200%"));
+      assert.deepEqual(await page.evaluate(collisions), []);
+      assert.deepEqual(problems, []);
+      await close();
+    });
+  }
 
   it("shows lines of code that run", () => {
     const source = readFileSync(new URL("../../www/bay/example.js", import.meta.url), "utf8");

@@ -9,6 +9,10 @@ const FILLED = {
     const { end } = await head(page, hand, "fuel", "connections", { seed: 5 });
     await hand.press(end);
   },
+  "bay/index.html": async (page) => {
+    await page.locator("#hundred").click();
+    await page.waitForFunction(() => document.querySelectorAll(".berth-line:not(.empty)").length > 12);
+  },
 };
 
 /** `{ path, name, fill(page) }` for each page, in the order of the navigation. */

@@ -34,9 +34,10 @@ export interface Path {
 
 /** The time over which a velocity is taken, in seconds. */
 const OVER = 60;
-/** How many harbours have their paths drawn, in how many steps. */
+/** How many harbours have their paths drawn, from which probability on, in how many steps. */
 const PATHS = 3;
-const STEPS = 7;
+const FAINT = 0.02;
+const STEPS = 6;
 /** How long after now the forecast is drawn, in seconds. */
 const FORECASTS = [600, 1200, 1800];
 
@@ -95,23 +96,27 @@ export class Lookout {
     return arriving;
   }
 
-  /** The expected paths to the most probable harbours, the most probable first. */
-  paths(): Path[] {
+  /** The harbours whose paths are worth drawing, the most probable first. */
+  likely(): number[] {
+    const { probabilities = new Float64Array() } = this.latest ?? {};
+    const share = (index: number) => probabilities[index] ?? 0;
+    return [...probabilities.keys()]
+      .filter((index) => share(index) >= FAINT)
+      .sort((i, j) => share(j) - share(i))
+      .slice(0, PATHS);
+  }
+
+  /** The expected path to a harbour from the last report on; null where it would be there by now. */
+  path(harbour: number): Path | null {
     const { latest } = this;
-    if (!latest) return [];
-    const order = [...latest.probabilities.keys()].sort(
-      (i, j) => (latest.probabilities[j] ?? 0) - (latest.probabilities[i] ?? 0),
-    );
-    return order.slice(0, PATHS).flatMap((index) => {
-      const { id } = HARBOURS[index] ?? {};
-      const time = this.arrivalAt(index)?.median;
-      const now = latest.report.time;
-      if (id === undefined || time === undefined || time <= now) return [];
-      const times = Array.from({ length: STEPS + 1 }, (_, i) => now + ((time - now) * i) / STEPS);
-      const path = this.#predictor.path(id, times);
-      const places = times.map((_, i) => ({ x: path[2 * i] ?? 0, y: path[2 * i + 1] ?? 0 }));
-      return { probability: latest.probabilities[index] ?? 0, places };
-    });
+    const { id } = HARBOURS[harbour] ?? {};
+    const time = this.arrivalAt(harbour)?.median;
+    if (!latest || id === undefined || time === undefined || time <= latest.report.time) return null;
+    const now = latest.report.time;
+    const times = Array.from({ length: STEPS }, (_, i) => now + ((time - now) * (i + 1)) / STEPS);
+    const path = this.#predictor.path(id, times);
+    const places = times.map((_, i) => ({ x: path[2 * i] ?? 0, y: path[2 * i + 1] ?? 0 }));
+    return { probability: latest.probabilities[harbour] ?? 0, places };
   }
 
   /** The density of its place ten, twenty and thirty minutes from now. */

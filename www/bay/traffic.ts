@@ -138,10 +138,9 @@ export class Traffic {
     const { scale } = this.#projection;
     context.strokeStyle = colours.light;
     for (const { places, probability } of paths) {
-      if (probability < 0.02) continue;
       context.globalAlpha = 0.15 + 0.85 * probability;
       context.lineWidth = 1 + 1.5 * probability;
-      this.#curve([from, ...places.slice(1)]);
+      this.#curve([from, ...places]);
       context.stroke();
     }
     context.lineWidth = 1;
