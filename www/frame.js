@@ -4,6 +4,7 @@
 export const PAGES = [
   { path: "index.html", name: "The car" },
   { path: "bay/index.html", name: "Bay" },
+  { path: "lab/index.html", name: "Lab" },
   { path: "sequences/index.html", name: "Sequences" },
 ];
 

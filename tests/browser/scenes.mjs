@@ -1,5 +1,6 @@
 // The pages of the demo. What holds for all of them is in scenes.test.mjs.
 import { PAGES } from "../../www/frame.js";
+import { makeMovements } from "./lab.mjs";
 import { head, mouse } from "./support.mjs";
 
 /** Uses a page until every text and number is on it, by its path; where there is none they are from the beginning. */
@@ -13,6 +14,7 @@ const FILLED = {
     await page.locator("#hundred").click();
     await page.waitForFunction(() => document.querySelectorAll(".berth-line:not(.empty)").length > 12);
   },
+  "lab/index.html": (page) => makeMovements(page, 2),
 };
 
 /** `{ path, name, fill(page) }` for each page, in the order of the navigation. */

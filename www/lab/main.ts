@@ -1,0 +1,231 @@
+/** Puts the lab together: a field that records, workers that score and fit, what they show. */
+import { begin, part, reasonOf } from "../shared/page.ts";
+import { Status } from "../shared/status.ts";
+import { theme } from "../shared/theme.ts";
+import example from "./example.js?raw";
+import { dataControls } from "./data.ts";
+import { Field, type Layout } from "./field.ts";
+import { Fitting } from "./fitting.ts";
+import { keepMore, kept } from "./keep.ts";
+import { approachOf, type Movement } from "./movement.ts";
+import { Panel } from "./panel.ts";
+import { Pictures } from "./pictures.ts";
+import { Player } from "./player.ts";
+import { hasExpected } from "./recorder.ts";
+import { Sessions, type SessionName } from "./sessions.ts";
+import { simulate } from "./simulated.ts";
+import { Table } from "./table.ts";
+import { count, duration, leading } from "./words.ts";
+
+/** The simulated movements that are there at once. */
+const AT_FIRST = 24;
+/** Those of one press of the button. */
+const MORE = 20;
+
+const status = new Status(part("status"), part("announcement"));
+
+begin(status, async () => {
+  theme(part<HTMLButtonElement>("theme"), () => undefined);
+  part("example").textContent = example;
+  await document.fonts.ready;
+
+  let shown: SessionName = "simulated";
+  let seed = 1;
+  /** Movements by the visitor, for their names. */
+  let recorded = 0;
+  let firstScored = (): void => undefined;
+
+  const field = new Field(
+    { field: part("field"), drawing: part<SVGSVGElement>("drawing"), handle: part("handle") },
+    {
+      pressed({ targets, target, recording }) {
+        player.stop();
+        show("own");
+        const movement = recording && {
+          id: `${field.layout}-${Date.now().toString(36)}-${(recorded += 1)}`,
+          user: "visitor",
+          targets,
+          target,
+          samples: recording.samples,
+          ...(hasExpected(recording) ? { expected: recording.expected } : {}),
+        };
+        if (!movement || approachOf(movement) === null) {
+          status.write("Pressed, without a movement that comes to it from outside: nothing to predict from.");
+          return;
+        }
+        add([movement]);
+        status.write(`Recorded: ${duration(movement)}, ${count(movement.samples.length, "sample")}. Now the next one.`);
+      },
+      missed(by) {
+        status.write(MISSED[by]);
+      },
+    },
+  );
+
+  const table = new Table(part<HTMLTableElement>("methods"), () => draw());
+  const pictures = new Pictures({
+    movement: part<SVGSVGElement>("movement"),
+    course: part<SVGSVGElement>("course"),
+    calibration: part<SVGSVGElement>("calibration"),
+    movementWords: part("movement-words"),
+    courseWords: part("course-words"),
+    calibrationWords: part("calibration-words"),
+  });
+  const panel = new Panel(
+    {
+      facts: part("facts"),
+      own: part<HTMLInputElement>("session-own"),
+      simulated: part<HTMLInputElement>("session-simulated"),
+      ownCount: part("own-count"),
+      simulatedCount: part("simulated-count"),
+      progress: part<HTMLProgressElement>("scoring"),
+    },
+    (name) => {
+      player.stop();
+      show(name);
+    },
+  );
+  const fitting = new Fitting(
+    {
+      fit: part<HTMLButtonElement>("fit"),
+      cancel: part<HTMLButtonElement>("cancel"),
+      progress: part<HTMLProgressElement>("fitting"),
+      verdict: part("verdict"),
+      constants: part("constants"),
+      code: part("constants-code"),
+      copy: part<HTMLButtonElement>("copy"),
+    },
+    (text) => status.announce(text),
+  );
+
+  const failed = (error: unknown) => status.write(`Something does not work here: ${reasonOf(error)}`, true);
+  const sessions = new Sessions({
+    changed(name) {
+      const { movements, waiting } = sessions.get(name);
+      panel.count(name, movements.length);
+      if (waiting === 0) firstScored();
+      if (name === shown) refresh();
+    },
+    refused: (words) => status.write(words),
+    failed,
+  });
+
+  /** Everything is drawn once a frame, from what is then the case. */
+  let frame = 0;
+  const refresh = () => {
+    if (!frame) frame = requestAnimationFrame(draw);
+  };
+  function draw(): void {
+    frame = 0;
+    const session = sessions.get(shown);
+    const { movements, summary, last, waiting } = session;
+    panel.show(shown, session);
+    table.show(summary, shown === "own");
+    pictures.draw(summary, last, table.shown);
+    field.drawPaths(movements, last);
+    fitting.show(movements);
+    part("leading").textContent = leading(summary?.comparison ?? null, summary?.rows ?? []);
+    part<HTMLButtonElement>("export").disabled = movements.length === 0;
+    document.documentElement.toggleAttribute("data-scoring", waiting > 0);
+    if (last) showExampleOf(last.movement).catch(failed);
+  }
+
+  function show(name: SessionName): void {
+    if (name === shown) return;
+    shown = name;
+    fitting.clear();
+    refresh();
+  }
+
+  /** To the visitor's own. */
+  function add(movements: readonly Movement[]): readonly Movement[] {
+    const added = sessions.add("own", movements);
+    keepMore(added).catch(failed);
+    return added;
+  }
+
+  const hand = part<HTMLButtonElement>("hand");
+  const player = new Player({
+    moved: (place) => field.showArrow(place),
+    arrived(movement, [next]) {
+      sessions.add("simulated", [movement]);
+      field.goOn(movement.target, next?.target ?? field.from);
+    },
+    ended() {
+      hand.textContent = `Let the simulated hand do ${MORE}`;
+      field.showArrow(null);
+    },
+  });
+  hand.addEventListener("click", () => {
+    if (player.playing) return player.stop();
+    show("simulated");
+    hand.textContent = "Stop the simulated hand";
+    status.write(`The simulated hand of whither/testing makes ${MORE} movements.`);
+    const movements = simulate(field, MORE, (seed += 1), field.from);
+    field.goOn(field.from, movements[0]?.target ?? field.from);
+    player.play(movements, matchMedia("(prefers-reduced-motion: reduce)").matches);
+  });
+
+  dataControls(
+    {
+      keep: part<HTMLInputElement>("keep"),
+      forget: part<HTMLButtonElement>("forget"),
+      save: part<HTMLButtonElement>("export"),
+      open: part<HTMLButtonElement>("import"),
+      file: part<HTMLInputElement>("file"),
+      problems: part("problems"),
+    },
+    {
+      shown: () => ({ movements: sessions.get(shown).movements, name: shown === "own" ? "lab" : "simulated" }),
+      own: () => sessions.get("own").movements,
+      add(movements) {
+        player.stop();
+        if (movements.length > 0) show("own");
+        return add(movements);
+      },
+      clear() {
+        sessions.clear("own");
+        show("simulated");
+      },
+      write: (text) => status.write(text),
+    },
+  );
+
+  /** The simulated hand's first movements in this arrangement. */
+  const showExample = () => sessions.add("simulated", simulate(field, AT_FIRST, 1));
+
+  part("layouts").addEventListener("change", (event) => {
+    player.stop();
+    field.layout = (event.target as HTMLInputElement).value as Layout;
+    showExample();
+    refresh();
+  });
+  new ResizeObserver(() => {
+    if (!field.fit()) return;
+    player.stop();
+    refresh();
+  }).observe(part("field"));
+
+  showExample();
+  const before = await kept().catch(() => []);
+  if (before.length > 0) {
+    sessions.add("own", before);
+    show("own");
+    status.write(`${count(before.length, "movement")} from before. Press the lit target for more.`);
+  } else status.write("A simulated hand’s movements, until you press the lit target yourself.");
+  await new Promise<void>((resolve) => (firstScored = resolve));
+});
+
+/** What the ten lines give of a movement. */
+async function showExampleOf(movement: Movement): Promise<void> {
+  const { rightAfter } = await import("./example.js");
+  const right = rightAfter(movement).filter(Boolean).length;
+  part("example-result").textContent =
+    `They ran just now, on the last movement: right after ${right} of its ${count(movement.samples.length, "sample")}.`;
+}
+
+const MISSED = {
+  press: "Beside it: press the lit target.",
+  lift: "Lifted beside it: drag the ring to the lit target and lift there.",
+  tap: "A tap has no movement to predict from: drag the ring to the lit target and lift there.",
+};

@@ -1,0 +1,58 @@
+/** Numbers and results in words, the same everywhere on the page. */
+import type { Recording } from "./recorder.ts";
+import type { Comparison, Row } from "./tally.ts";
+import { methodOf } from "./methods.ts";
+
+export const NOTHING = "–";
+
+export function percent(value: number | null): string {
+  return value === null ? NOTHING : `${value.toFixed(0)}%`;
+}
+
+export function milliseconds(value: number): string {
+  return `${value.toFixed(0)} ms`;
+}
+
+export function nats(value: number | null): string {
+  return value === null ? NOTHING : value.toFixed(3);
+}
+
+/** A number that may be below 0. */
+export function signed(value: number, digits: number): string {
+  return value.toFixed(digits).replace("-", "−");
+}
+
+export function count(number: number, one: string, many = `${one}s`): string {
+  return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
+}
+
+/** Which method leads, as far as the movements show. */
+export function leading(comparison: Comparison | null, rows: readonly Row[]): string {
+  const first = rows[0];
+  if (!first || first.figures.movements === 0) return "No movement yet.";
+  if (!comparison) return "One movement shows nothing about which method is better.";
+  const { leader, next, mean, half } = comparison;
+  const interval = `${signed(mean - half, 1)} to ${signed(mean + half, 1)}`;
+  const names = `${methodOf(leader).name} leads ${methodOf(next).name} by ${mean.toFixed(1)} points`;
+  return mean - half > 0
+    ? `${names} of time (95% interval ${interval}).`
+    : `${names} of time, which is within chance: the 95% interval is ${interval}.`;
+}
+
+/** Why a method was not scored on all movements; null where it was. */
+export function left(row: Row, movements: number, isOwn: boolean): string | null {
+  if (row.figures.movements === movements) return null;
+  if (row.id !== "predicted") return `on ${row.figures.movements} of ${movements} movements`;
+  if (row.figures.movements > 0)
+    return `on the ${row.figures.movements} of ${movements} movements in which the browser predicted`;
+  if (!isOwn) return "a simulated hand has no browser that predicts it";
+  return "getPredictedEvents" in PointerEvent.prototype
+    ? "the browser predicted nothing in these movements, or their lines do not hold it"
+    : "this browser does not have it";
+}
+
+/** How long a movement was, in words. */
+export function duration({ samples }: Pick<Recording, "samples">): string {
+  const [first, last] = [samples[0]?.[0] ?? 0, samples.at(-1)?.[0] ?? 0];
+  return `${(last - first).toFixed(2)} s`;
+}
