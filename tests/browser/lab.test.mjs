@@ -8,7 +8,7 @@ import { describe, it } from "node:test";
 import { root } from "../../scripts/run.mjs";
 import { movement } from "./hand.mjs";
 import { asked, makeMovements, scored } from "./lab.mjs";
-import { drag, hosted, mouse, open } from "./support.mjs";
+import { drag, hosted, mouse, open, POLICY } from "./support.mjs";
 
 const PATH = "lab/index.html";
 const CALM = { reducedMotion: "reduce" };
@@ -110,7 +110,10 @@ describe("the lab", () => {
     await makeMovements(page, 6);
     assert.equal(await own(page), "6");
     assert.equal(await page.locator("#session-own").isChecked(), true);
-    assert.match(await page.locator("#status").textContent(), /^Recorded: \d\.\d\d s, \d+ samples\. Now the next one\.$/);
+    assert.match(
+      await page.locator("#status").textContent(),
+      /^Recorded: \d\.\d\d s, \d+ samples\. The pointing model was right for the last \d+ ms before the entry\.$/,
+    );
     const rows = Object.fromEntries((await table(page)).map((row) => [row.method, row]));
     const { name, text } = await saved(page);
     assert.equal(name, "whither-lab.jsonl");
@@ -207,7 +210,7 @@ describe("the lab", () => {
   });
 
   it("fits with progress, can be cancelled, and states the gain on movements left out", async () => {
-    const { page, problems, close } = await fresh();
+    const { page, problems, close } = await fresh({ ...CALM, permissions: ["clipboard-read", "clipboard-write"] });
     assert.equal(await page.locator("#verdict").textContent(), "6 more movements to go: it takes at least 30.");
     assert.equal(await page.locator("#fit").isDisabled(), true);
     await page.locator("#hand").click();
@@ -254,16 +257,8 @@ describe("the lab", () => {
     const listed = await page.locator("#constants .fact", { hasText: "→" }).locator("dt").allTextContents();
     assert.deepEqual(listed, ["pointing.power.to", "pointing.timeToGo.median"]);
     assert.ok(sections.pointing.power.to > 0);
-    assert.deepEqual(problems, []);
-    await close();
-  });
 
-  it("gives constants that watch and a predictor take", async () => {
-    const { page, close } = await fresh({ ...CALM, permissions: ["clipboard-read", "clipboard-write"] });
-    await page.locator("#hand").click();
-    await scored(page);
-    await page.locator("#fit").click();
-    await page.locator("#copy:enabled").waitFor({ timeout: 60_000 });
+    // watch and a predictor take them
     await page.locator("#copy").click();
     await page.locator("#copy", { hasText: "Copied" }).waitFor();
     const constants = JSON.parse(await page.evaluate(() => navigator.clipboard.readText()));
@@ -283,6 +278,7 @@ describe("the lab", () => {
       predictor.observe(0.05, [270, 290]);
     }
     assert.ok(Math.abs(one.probabilities()[0] - other.probabilities()[0]) < 1e-9);
+    assert.deepEqual(problems, []);
     await close();
   });
 
@@ -341,7 +337,7 @@ describe("the lab", () => {
     await page.waitForFunction(() => document.documentElement.dataset.ready);
     assert.equal(await own(page), "3");
     assert.equal(await page.locator("#keep").isChecked(), true);
-    assert.equal(await page.locator("#status").textContent(), "3 movements from before. Press the lit target for more.");
+    assert.equal(await page.locator("#status").textContent(), "3 movements from before. For more, press the lit target.");
     await scored(page);
     // where the browser expected the pointer is kept with them
     assert.ok((await table(page)).find(({ method }) => method === "predicted").time > 0);
@@ -424,6 +420,21 @@ describe("the lab", () => {
     assert.ok((await page.locator("#field .target").count()) >= 12);
     await scored(page);
     assert.deepEqual(problems, []);
+    await close();
+  });
+});
+
+describe("the lab where WebAssembly is forbidden", () => {
+  const site = hosted(POLICY.replace("'wasm-unsafe-eval'", ""));
+
+  it("states that, and shows no number", async () => {
+    const { page, close } = await open(site.browser, site.url, CALM, PATH);
+    assert.equal(await page.evaluate(() => "failed" in document.documentElement.dataset), true);
+    assert.match(await page.locator("#status").textContent(), /^This page could not start: .*wasm-unsafe-eval/);
+    assert.deepEqual(
+      (await table(page)).filter(({ time, loss }) => time !== null || loss !== null),
+      [],
+    );
     await close();
   });
 });

@@ -96,11 +96,13 @@ export class Field {
     );
   }
 
-  /** Another hand's pointer; null takes it away. */
-  showArrow(place: Place | null): void {
-    const { arrow } = this.#layers;
-    arrow.setAttribute("visibility", place ? "visible" : "hidden");
-    if (place) arrow.setAttribute("transform", `translate(${place[0].toFixed(1)} ${place[1].toFixed(1)})`);
+  /** Where another hand's pointer has been, and is; it is nowhere without a place. */
+  showArrow(path: readonly Place[]): void {
+    const { arrow, trail } = this.#layers;
+    const [x, y] = path.at(-1) ?? [0, 0];
+    arrow.setAttribute("visibility", path.length > 0 ? "visible" : "hidden");
+    arrow.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+    trail.setAttribute("points", points(path));
   }
 
   /** Another hand has pressed this target, and goes to the next. */

@@ -1,6 +1,7 @@
 /** Learns constants from movements in a thread of its own, and what they gain on movements that were left out. */
 import { init, pointerScenario } from "whither";
 import { fit, type FittedConstant } from "whither/study";
+import { reasonOf } from "../shared/page.ts";
 import { meanOf, scoreOf, type Score } from "./metrics.ts";
 import { approachOf, type Movement } from "./movement.ts";
 import { byPointing, type Constants } from "./predictions.ts";
@@ -43,7 +44,7 @@ addEventListener("message", async ({ data }: MessageEvent<FitRequest>) => {
     await init();
     report({ kind: "result", result: await crossValidate(data) });
   } catch (error) {
-    report({ kind: "error", message: error instanceof Error ? error.message : String(error) });
+    report({ kind: "error", message: reasonOf(error) });
   }
 });
 

@@ -18,6 +18,8 @@ export interface FittingParts {
 export class Fitting {
   readonly #parts: FittingParts;
   readonly #announce: (text: string) => void;
+  #shown: readonly Movement[] | null = null;
+  /** Those that enter their target. */
   #movements: readonly Movement[] = [];
   #worker: Worker | null = null;
   #hasResult = false;
@@ -36,6 +38,8 @@ export class Fitting {
 
   /** What can be learnt from. What was learnt before from fewer stays, with their number. */
   show(movements: readonly Movement[]): void {
+    if (movements === this.#shown) return;
+    this.#shown = movements;
     this.#movements = movements.filter((movement) => approachOf(movement) !== null);
     const { length } = this.#movements;
     this.#parts.fit.disabled = this.#worker !== null || pathsFor(length) === null;
@@ -43,11 +47,11 @@ export class Fitting {
     this.#parts.verdict.textContent = this.#before(length);
   }
 
-  /** Another session: what was learnt is not its. */
+  /** Another session is shown next: what was learnt is not its. */
   clear(): void {
     this.#stop();
     this.#list(null);
-    this.show(this.#movements);
+    this.#shown = null;
   }
 
   #before(movements: number): string {

@@ -15,12 +15,15 @@ import { hasExpected } from "./recorder.ts";
 import { Sessions, type SessionName } from "./sessions.ts";
 import { simulate } from "./simulated.ts";
 import { Table } from "./table.ts";
-import { count, duration, leading } from "./words.ts";
+import { count, leading, recorded } from "./words.ts";
 
 /** The simulated movements that are there at once. */
 const AT_FIRST = 24;
 /** Those of one press of the button. */
 const MORE = 20;
+
+/** What there is to do, by the pointer that the visitor has. */
+const TASK = matchMedia("(hover: none)").matches ? "drag the ring to the lit target" : "press the lit target";
 
 const status = new Status(part("status"), part("announcement"));
 
@@ -30,10 +33,16 @@ begin(status, async () => {
   await document.fonts.ready;
 
   let shown: SessionName = "simulated";
+  /** The arrangements that have an example. */
+  const examples = new Set<Layout>();
   let seed = 1;
-  /** Movements by the visitor, for their names. */
-  let recorded = 0;
-  let firstScored = (): void => undefined;
+  /** The visitor's presses, which name movements. */
+  let presses = 0;
+  /** The visitor's last movement, until it is stated how it was predicted. */
+  let fresh: string | null = null;
+  let scoredFirst = (): void => undefined;
+  let neverScored = (_: Error): void => undefined;
+  const firstScored = new Promise<void>((resolve, reject) => ([scoredFirst, neverScored] = [resolve, reject]));
 
   const field = new Field(
     { field: part("field"), drawing: part<SVGSVGElement>("drawing"), handle: part("handle") },
@@ -42,7 +51,7 @@ begin(status, async () => {
         player.stop();
         show("own");
         const movement = recording && {
-          id: `${field.layout}-${Date.now().toString(36)}-${(recorded += 1)}`,
+          id: `${field.layout}-${Date.now().toString(36)}-${(presses += 1)}`,
           user: "visitor",
           targets,
           target,
@@ -53,8 +62,9 @@ begin(status, async () => {
           status.write("Pressed, without a movement that comes to it from outside: nothing to predict from.");
           return;
         }
+        fresh = movement.id;
+        status.show(recorded(movement, null));
         add([movement]);
-        status.write(`Recorded: ${duration(movement)}, ${count(movement.samples.length, "sample")}. Now the next one.`);
       },
       missed(by) {
         status.write(MISSED[by]);
@@ -103,11 +113,14 @@ begin(status, async () => {
     changed(name) {
       const { movements, waiting } = sessions.get(name);
       panel.count(name, movements.length);
-      if (waiting === 0) firstScored();
+      if (waiting === 0) scoredFirst();
       if (name === shown) refresh();
     },
     refused: (words) => status.write(words),
-    failed,
+    failed(error) {
+      failed(error);
+      neverScored(error);
+    },
   });
 
   /** Everything is drawn once a frame, from what is then the case. */
@@ -120,21 +133,32 @@ begin(status, async () => {
     const session = sessions.get(shown);
     const { movements, summary, last, waiting } = session;
     panel.show(shown, session);
-    table.show(summary, shown === "own");
+    table.show(summary, last, shown === "own");
     pictures.draw(summary, last, table.shown);
     field.drawPaths(movements, last);
     fitting.show(movements);
     part("leading").textContent = leading(summary?.comparison ?? null, summary?.rows ?? []);
     part<HTMLButtonElement>("export").disabled = movements.length === 0;
     document.documentElement.toggleAttribute("data-scoring", waiting > 0);
-    if (last) showExampleOf(last.movement).catch(failed);
+    if (!last) return;
+    showExampleOf(last.movement).catch(failed);
+    if (last.movement.id !== fresh) return;
+    fresh = null;
+    status.write(recorded(last.movement, last.trace));
   }
 
   function show(name: SessionName): void {
     if (name === shown) return;
     shown = name;
     fitting.clear();
+    if (name === "simulated") showExample();
     refresh();
+  }
+
+  /** The simulated hand's first movements in this arrangement of the targets. */
+  function showExample(): void {
+    if (!examples.has(field.layout)) sessions.add("simulated", simulate(field, AT_FIRST, 1));
+    examples.add(field.layout);
   }
 
   /** To the visitor's own. */
@@ -146,14 +170,13 @@ begin(status, async () => {
 
   const hand = part<HTMLButtonElement>("hand");
   const player = new Player({
-    moved: (place) => field.showArrow(place),
+    moved: (path) => field.showArrow(path),
     arrived(movement, [next]) {
       sessions.add("simulated", [movement]);
       field.goOn(movement.target, next?.target ?? field.from);
     },
     ended() {
       hand.textContent = `Let the simulated hand do ${MORE}`;
-      field.showArrow(null);
     },
   });
   hand.addEventListener("click", () => {
@@ -191,13 +214,11 @@ begin(status, async () => {
     },
   );
 
-  /** The simulated hand's first movements in this arrangement. */
-  const showExample = () => sessions.add("simulated", simulate(field, AT_FIRST, 1));
-
   part("layouts").addEventListener("change", (event) => {
     player.stop();
     field.layout = (event.target as HTMLInputElement).value as Layout;
-    showExample();
+    if (shown === "simulated") showExample();
+    status.write(`${count(field.targets.length, "target")}: ${TASK}.`);
     refresh();
   });
   new ResizeObserver(() => {
@@ -211,9 +232,9 @@ begin(status, async () => {
   if (before.length > 0) {
     sessions.add("own", before);
     show("own");
-    status.write(`${count(before.length, "movement")} from before. Press the lit target for more.`);
-  } else status.write("A simulated hand’s movements, until you press the lit target yourself.");
-  await new Promise<void>((resolve) => (firstScored = resolve));
+    status.write(`${count(before.length, "movement")} from before. For more, ${TASK}.`);
+  } else status.write(`A simulated hand’s movements, until you ${TASK} yourself.`);
+  await firstScored;
 });
 
 /** What the ten lines give of a movement. */

@@ -2,8 +2,8 @@
 import { places, type Movement, type Place } from "./movement.ts";
 
 export interface PlayerEvents {
-  /** Where the arrow is; null when it goes. */
-  moved(place: Place | null): void;
+  /** Where it has been so far in this movement, and is; nowhere when it goes. */
+  moved(path: readonly Place[]): void;
   /** A movement is over; `rest` are those that follow. */
   arrived(movement: Movement, rest: readonly Movement[]): void;
   /** It plays no more. */
@@ -31,6 +31,7 @@ export class Player {
     const [movement, ...rest] = movements;
     if (atOnce) movements.forEach((each, k) => this.#events.arrived(each, movements.slice(k + 1)));
     if (!movement || atOnce) {
+      this.#events.moved([]);
       this.#events.ended();
       return;
     }
@@ -40,7 +41,7 @@ export class Player {
     const step = () => {
       const now = ((performance.now() - begin) / 1000) * SPEED;
       while (at + 1 < path.length && (movement.samples[at + 1]?.[0] ?? 0) <= now) at += 1;
-      this.#events.moved(path[at] ?? null);
+      this.#events.moved(path.slice(0, at + 1));
       this.#frame = requestAnimationFrame(step);
       if (at + 1 < path.length) return;
       this.#events.arrived(movement, rest);
@@ -57,7 +58,7 @@ export class Player {
     if (!this.#frame) return;
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    this.#events.moved(null);
+    this.#events.moved([]);
     this.#events.ended();
   }
 }

@@ -1,5 +1,6 @@
 /** Scores movements in a thread of its own: a pointer is followed without a pause meanwhile. */
 import { init } from "whither";
+import { reasonOf } from "../shared/page.ts";
 import type { Movement } from "./movement.ts";
 import { predict } from "./predictions.ts";
 import { Tally, type Summary, type Trace } from "./tally.ts";
@@ -8,6 +9,11 @@ import { Tally, type Summary, type Trace } from "./tally.ts";
 export type Request =
   | { readonly kind: "add"; readonly session: string; readonly movements: readonly Movement[] }
   | { readonly kind: "clear"; readonly session: string };
+
+/** From the worker, where the core cannot start: nothing is scored. */
+export interface Failed {
+  readonly failed: string;
+}
 
 /** From the worker: how far a session is. */
 export interface Scored {
@@ -52,7 +58,7 @@ async function work(): Promise<void> {
       try {
         state.tally.add(movement);
       } catch (error) {
-        refused = `The movement ${movement.id} cannot be scored: ${error instanceof Error ? error.message : String(error)}`;
+        refused = `The movement ${movement.id} cannot be scored: ${reasonOf(error)}`;
       }
       state.done += 1;
       const isLast = queue.every((other) => other.session !== session);
@@ -64,6 +70,8 @@ async function work(): Promise<void> {
       // what has come meanwhile, such as that it begins anew
       await new Promise((resolve) => setTimeout(resolve));
     }
+  } catch (error) {
+    postMessage({ failed: reasonOf(error) } satisfies Failed);
   } finally {
     working = false;
   }

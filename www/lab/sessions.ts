@@ -1,6 +1,6 @@
 /** The visitor's movements and the simulated hand's, apart, each scored as it grows. */
 import { writeLine, type Movement } from "./movement.ts";
-import type { Request, Scored } from "./score.worker.ts";
+import type { Failed, Request, Scored } from "./score.worker.ts";
 import type { Summary } from "./tally.ts";
 
 export const SESSIONS = ["own", "simulated"] as const;
@@ -31,12 +31,18 @@ export class Sessions {
   readonly #worker = new Worker(new URL("./score.worker.ts", import.meta.url), { type: "module" });
   readonly #events: SessionsEvents;
   readonly #sessions: Record<SessionName, Session> = { own: EMPTY, simulated: EMPTY };
+  /** The lines of each, so that none is there twice. */
+  readonly #lines: Record<SessionName, Set<string>> = { own: new Set(), simulated: new Set() };
   /** How often each was emptied: reports from before are not of it. */
   readonly #emptied: Record<SessionName, number> = { own: 0, simulated: 0 };
 
   constructor(events: SessionsEvents) {
     this.#events = events;
-    this.#worker.addEventListener("message", ({ data }: MessageEvent<Scored>) => {
+    this.#worker.addEventListener("message", ({ data }: MessageEvent<Scored | Failed>) => {
+      if ("failed" in data) {
+        events.failed(new Error(data.failed));
+        return;
+      }
       const name = SESSIONS.find((each) => this.#key(each) === data.session);
       if (!name) return;
       const { movements, last } = this.#sessions[name];
@@ -55,7 +61,7 @@ export class Sessions {
   /** Those that are not there already, by all that a line holds; returns them. */
   add(name: SessionName, movements: readonly Movement[]): readonly Movement[] {
     const session = this.#sessions[name];
-    const known = new Set(session.movements.map(writeLine));
+    const known = this.#lines[name];
     const added = movements.filter((movement) => {
       const line = writeLine(movement);
       return !known.has(line) && known.add(line);
@@ -74,6 +80,7 @@ export class Sessions {
   clear(name: SessionName): void {
     this.#post({ kind: "clear", session: this.#key(name) });
     this.#emptied[name] += 1;
+    this.#lines[name].clear();
     this.#sessions[name] = EMPTY;
     this.#events.changed(name);
   }

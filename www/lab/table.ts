@@ -1,6 +1,8 @@
 /** The methods side by side: the best first, by the column that was chosen. */
 import type { Figures } from "./metrics.ts";
 import { METHODS, methodOf, type MethodId } from "./methods.ts";
+import type { Scored } from "./score.worker.ts";
+import { strip } from "./strip.ts";
 import type { Row, Summary } from "./tally.ts";
 import { left, milliseconds, nats, NOTHING, percent } from "./words.ts";
 
@@ -23,6 +25,7 @@ export class Table {
   readonly #chosen: (id: MethodId) => void;
   #column: Column = "time";
   #summary: Summary | null = null;
+  #last: Scored["last"] = null;
   #isOwn = false;
   #shown: MethodId = "pointing";
 
@@ -43,8 +46,9 @@ export class Table {
     return this.#shown;
   }
 
-  show(summary: Summary | null, isOwn: boolean): void {
+  show(summary: Summary | null, last: Scored["last"], isOwn: boolean): void {
     this.#summary = summary;
+    this.#last = last;
     this.#isOwn = isOwn;
     this.#draw();
   }
@@ -73,15 +77,8 @@ export class Table {
     head.append(button, note);
     row.append(
       head,
-      ...Object.entries(COLUMNS).map(([column, { label }]) => {
-        const cell = document.createElement("td");
-        // a narrow screen shows rows as blocks, which would be no table without roles
-        cell.role = "cell";
-        cell.dataset["of"] = column;
-        cell.dataset["label"] = label;
-        cell.textContent = NOTHING;
-        return cell;
-      }),
+      ...Object.entries(COLUMNS).map(([column, { label }]) => cellOf(column, label)),
+      cellOf("last", "The last movement"),
     );
     return row;
   }
@@ -124,6 +121,8 @@ export class Table {
       spread.textContent = row.spread === null ? "" : `±${row.spread.toFixed(0)}`;
       time.append(spread);
     }
+    const tops = this.#last?.trace.tops[row.id];
+    element.querySelector("[data-of=last]")?.replaceChildren(this.#last && tops ? strip(this.#last.movement, tops) : NOTHING);
     const note = element.querySelector(".note");
     const { samples, ahead } = this.#summary?.best ?? { samples: 0, ahead: 0 };
     const grid = `${samples} samples, ${1000 * ahead} ms: the best of 24 on these very movements`;
@@ -138,4 +137,14 @@ export class Table {
     if (value === null || figures.movements === 0) return -Infinity;
     return (less ? -value : value) - (figures.movements < movements ? 1e6 : 0);
   }
+}
+
+/** A narrow screen shows rows as blocks, which would be no table without roles. */
+function cellOf(column: string, label: string): HTMLTableCellElement {
+  const cell = document.createElement("td");
+  cell.role = "cell";
+  cell.dataset["of"] = column;
+  cell.dataset["label"] = label;
+  cell.textContent = NOTHING;
+  return cell;
 }

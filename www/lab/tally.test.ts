@@ -96,7 +96,7 @@ describe("the words", () => {
     assert.equal(left(row, 5, true), null);
     assert.equal(left(row, 7, true), "on 5 of 7 movements");
     const predicted = { ...row, id: "predicted" as const };
-    assert.equal(left(predicted, 7, true), "on the 5 of 7 movements in which the browser predicted");
+    assert.equal(left(predicted, 7, true), "the browser predicted in 5 of 7 movements");
   });
 
   it("call a gain one only where it is more than chance", () => {

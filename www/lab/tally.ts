@@ -1,5 +1,16 @@
 /** The scores of all methods on the same movements, one movement after the other. */
-import { add, emptyScore, figuresOf, meanOf, scoreOf, selections, type Figures, type Prediction, type Score } from "./metrics.ts";
+import {
+  add,
+  emptyScore,
+  figuresOf,
+  meanOf,
+  scoreOf,
+  selections,
+  type Figures,
+  type Prediction,
+  type Score,
+  type Selection,
+} from "./metrics.ts";
 import { METHODS, type MethodId } from "./methods.ts";
 import { approachOf, type Movement } from "./movement.ts";
 import { extrapolation, GRID, named, type Extrapolation } from "./peers.ts";
@@ -24,7 +35,9 @@ export interface Comparison {
 export interface Trace {
   readonly tops: Readonly<Partial<Record<MethodId, readonly (number | null)[]>>>;
   /** The samples at which the pointing model's probability selected a target. */
-  readonly selected: readonly { readonly target: number; readonly sample: number }[];
+  readonly selected: readonly Selection[];
+  /** Seconds from the moment since which its top stays right to the entry. */
+  readonly lead: number;
 }
 
 export interface Summary {
@@ -86,6 +99,7 @@ export class Tally {
     return {
       tops: Object.fromEntries(predictions.flatMap(([id, found]) => (found ? [[id, found.map(({ top }) => top)]] : []))),
       selected: selections(movement, pointing) ?? [],
+      lead: scoreOf(movement, pointing).lead,
     };
   }
 

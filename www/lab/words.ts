@@ -1,6 +1,6 @@
 /** Numbers and results in words, the same everywhere on the page. */
-import type { Recording } from "./recorder.ts";
-import type { Comparison, Row } from "./tally.ts";
+import type { Movement } from "./movement.ts";
+import type { Comparison, Row, Trace } from "./tally.ts";
 import { methodOf } from "./methods.ts";
 
 export const NOTHING = "–";
@@ -43,16 +43,17 @@ export function leading(comparison: Comparison | null, rows: readonly Row[]): st
 export function left(row: Row, movements: number, isOwn: boolean): string | null {
   if (row.figures.movements === movements) return null;
   if (row.id !== "predicted") return `on ${row.figures.movements} of ${movements} movements`;
-  if (row.figures.movements > 0)
-    return `on the ${row.figures.movements} of ${movements} movements in which the browser predicted`;
+  if (row.figures.movements > 0) return `the browser predicted in ${row.figures.movements} of ${movements} movements`;
   if (!isOwn) return "a simulated hand has no browser that predicts it";
-  return "getPredictedEvents" in PointerEvent.prototype
-    ? "the browser predicted nothing in these movements, or their lines do not hold it"
-    : "this browser does not have it";
+  return "getPredictedEvents" in PointerEvent.prototype ? "not recorded with these movements" : "this browser does not have it";
 }
 
-/** How long a movement was, in words. */
-export function duration({ samples }: Pick<Recording, "samples">): string {
-  const [first, last] = [samples[0]?.[0] ?? 0, samples.at(-1)?.[0] ?? 0];
-  return `${(last - first).toFixed(2)} s`;
+/** That a movement was recorded, and once it is scored how it was predicted. */
+export function recorded({ samples }: Pick<Movement, "samples">, trace: Pick<Trace, "lead"> | null): string {
+  const seconds = (samples.at(-1)?.[0] ?? 0) - (samples[0]?.[0] ?? 0);
+  const taken = `Recorded: ${seconds.toFixed(2)} s, ${count(samples.length, "sample")}.`;
+  if (!trace) return taken;
+  return trace.lead > 0
+    ? `${taken} The pointing model was right for the last ${milliseconds(1000 * trace.lead)} before the entry.`
+    : `${taken} The pointing model was right at the entry at the earliest.`;
 }
