@@ -93,14 +93,17 @@ describe("the lab", () => {
     const predicted = rows.at(-1);
     assert.equal(predicted.method, "predicted");
     assert.equal(predicted.note, "a simulated hand has no browser that predicts it");
-    // methods that are the same by proof, through the whole of the page
+    // methods that are the same by proof
     const [one, two] = ["algorithm1", "algorithm2"].map((id) => rows.find(({ method }) => method === id));
     assert.deepEqual([one.time, one.loss, one.calibration], [two.time, two.loss, two.calibration]);
     assert.equal(await page.locator("#field .paths .path").count(), 23);
-    assert.match(
-      await page.locator("#example-result").textContent(),
-      /^They ran just now, on the last movement: right after \d+ of its \d+ samples\.$/,
+    // the ten lines, which use another part of the package, count as the page does
+    const words = await page.locator("#movement-words").textContent();
+    const [, right, all] = /^Pointing model: the right target was on top after (\d+) of (\d+) samples up to the entry\.$/.exec(
+      words,
     );
+    const ran = `They ran just now, on the last movement: right after ${right} of ${all} samples up to the entry.`;
+    await page.locator("#example-result", { hasText: ran }).waitFor();
     assert.deepEqual(problems, []);
     await close();
   });
@@ -354,6 +357,26 @@ describe("the lab", () => {
     await page.reload();
     await page.waitForFunction(() => document.documentElement.dataset.ready);
     assert.equal(await own(page), "0");
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
+  it("records a pen that hovers", async () => {
+    const { page, problems, close } = await fresh();
+    const session = await page.context().newCDPSession(page);
+    const to = await asked(page);
+    const from = { x: to.x - 200, y: to.y - 150 };
+    const pen = (type, { x, y }, more) => session.send("Input.dispatchMouseEvent", { type, x, y, pointerType: "pen", ...more });
+    const start = Date.now() / 1000;
+    for (const [time, x, y] of movement(from, to, to.width, { seed: 4 })) {
+      await pen("mouseMoved", { x, y }, { timestamp: start + time });
+    }
+    const button = { button: "left", clickCount: 1, timestamp: start + 2 };
+    await pen("mousePressed", to, { ...button, buttons: 1 });
+    await pen("mouseReleased", to, button);
+    await scored(page);
+    assert.equal(await own(page), "1");
+    assert.match(await page.locator("#status").textContent(), /^Recorded: /);
     assert.deepEqual(problems, []);
     await close();
   });

@@ -34,25 +34,25 @@ export async function keepMore(movements: readonly Movement[]): Promise<void> {
   });
 }
 
-/** Leaves nothing behind. */
+/** Deletes all that was kept, and that it was asked for. */
 export async function keepNothing(): Promise<void> {
   if (!isKeeping()) return;
   localStorage.removeItem(FLAG);
-  await settled(indexedDB.deleteDatabase(DATABASE));
+  await resultOf(indexedDB.deleteDatabase(DATABASE));
 }
 
 async function withStore<T>(mode: IDBTransactionMode, use: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
   const open = indexedDB.open(DATABASE, 1);
   open.onupgradeneeded = () => open.result.createObjectStore(STORE, { autoIncrement: true });
-  const database = await settled(open);
+  const database = await resultOf(open);
   try {
-    return await settled(use(database.transaction(STORE, mode).objectStore(STORE)));
+    return await resultOf(use(database.transaction(STORE, mode).objectStore(STORE)));
   } finally {
     database.close();
   }
 }
 
-function settled<T>(request: IDBRequest<T>): Promise<T> {
+function resultOf<T>(request: IDBRequest<T>): Promise<T> {
   return new Promise((resolve, reject) => {
     request.onsuccess = () => resolve(request.result);
     request.onerror = () => reject(request.error ?? new Error("the browser does not store it"));

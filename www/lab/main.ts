@@ -237,12 +237,13 @@ begin(status, async () => {
   await firstScored;
 });
 
-/** What the ten lines give of a movement. */
+/** What the ten lines give of a movement, up to its entry. */
 async function showExampleOf(movement: Movement): Promise<void> {
   const { rightAfter } = await import("./example.js");
-  const right = rightAfter(movement).filter(Boolean).length;
+  const samples = movement.samples.slice(0, approachOf(movement) ?? 0);
+  const right = rightAfter({ ...movement, samples }).filter(Boolean).length;
   part("example-result").textContent =
-    `They ran just now, on the last movement: right after ${right} of its ${count(movement.samples.length, "sample")}.`;
+    `They ran just now, on the last movement: right after ${right} of ${count(samples.length, "sample")} up to the entry.`;
 }
 
 const MISSED = {

@@ -29,10 +29,10 @@ export class Pictures {
 
   draw(summary: Summary | null, last: { readonly movement: Movement; readonly trace: Trace } | null, id: MethodId): void {
     if (last) this.#movement(last.movement, last.trace, id);
-    if (!summary || !last) {
-      if (!summary) this.#clear();
+    if (!summary) {
+      this.#clear();
+      return;
     }
-    if (!summary) return;
     this.#course(summary, id);
     this.#calibration(summary.rows.find((row) => row.id === id)?.figures.bins ?? [], id, summary);
   }
@@ -106,7 +106,7 @@ export class Pictures {
   }
 }
 
-/** Grid, and what is at both ends of the axes. */
+/** Grid, and where the axes begin and stop. */
 function axes(from: string, to: string): SVGElement[] {
   const rules = [0, 25, 50, 75, 100].map((y) => svg("line", { class: "rule", x1: 0, y1: y, x2: SIDE, y2: y }));
   return [

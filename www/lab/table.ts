@@ -4,7 +4,7 @@ import { METHODS, methodOf, type MethodId } from "./methods.ts";
 import type { Scored } from "./score.worker.ts";
 import { strip } from "./strip.ts";
 import type { Row, Summary } from "./tally.ts";
-import { left, milliseconds, nats, NOTHING, percent } from "./words.ts";
+import { milliseconds, nats, NOTHING, percent, reasonFor } from "./words.ts";
 
 type Column = "time" | "lead" | "right" | "wrong" | "loss" | "calibration";
 
@@ -127,7 +127,7 @@ export class Table {
     const { samples, ahead } = this.#summary?.best ?? { samples: 0, ahead: 0 };
     const grid = `${samples} samples, ${1000 * ahead} ms: the best of 24 on these very movements`;
     const what = row.id === "extrapolation" && any ? grid : methodOf(row.id).what;
-    if (note) note.textContent = (movements > 0 && left(row, movements, this.#isOwn)) || what;
+    if (note) note.textContent = (movements > 0 && reasonFor(row, movements, this.#isOwn)) || what;
   }
 
   /** By which rows are ordered: those that were not scored on all movements come last, those without a number after the others. */

@@ -4,7 +4,7 @@ import { LEAST_MOVEMENTS, MOVEMENTS_FOR_ALL, pathsFor } from "./folds.ts";
 import type { Movement } from "./movement.ts";
 import { expected, extrapolation, named, nearest } from "./peers.ts";
 import { Tally, type Predict } from "./tally.ts";
-import { leading, left } from "./words.ts";
+import { leading, reasonFor } from "./words.ts";
 import { verdict } from "./fitting.ts";
 
 /** 2 px/ms to the right, past targets at 0, 100 and 300. */
@@ -47,7 +47,7 @@ describe("the tally", () => {
   const rule: Predict = (id, movement, length) =>
     id === "pointing" ? named([0, 2, 2, 2]) : id === "nearest" ? named(nearest(movement, length)) : null;
 
-  it("sorts methods by the share of the time, and leaves those out that could not be applied", () => {
+  it("sorts methods by the share of the time, without those that could not be applied", () => {
     const tally = new Tally(rule);
     tally.add(FAST);
     tally.add({ ...FAST, id: "other" });
@@ -85,7 +85,7 @@ describe("the tally", () => {
 
 describe("the words", () => {
   const found = { leader: "pointing", next: "nearest", mean: 4, half: 1 } as const;
-  const row = { id: "pointing", spread: 2, figures: { movements: 5 } } as Parameters<typeof left>[0];
+  const row = { id: "pointing", spread: 2, figures: { movements: 5 } } as Parameters<typeof reasonFor>[0];
 
   it("call a lead one only where it is more than chance", () => {
     assert.equal(leading(found, [row]), "Pointing model leads Nearest target by 4.0 points of time (95% interval 3.0 to 5.0).");
@@ -93,10 +93,10 @@ describe("the words", () => {
   });
 
   it("state why a method was not scored on all movements", () => {
-    assert.equal(left(row, 5, true), null);
-    assert.equal(left(row, 7, true), "on 5 of 7 movements");
+    assert.equal(reasonFor(row, 5, true), null);
+    assert.equal(reasonFor(row, 7, true), "on 5 of 7 movements");
     const predicted = { ...row, id: "predicted" as const };
-    assert.equal(left(predicted, 7, true), "the browser predicted in 5 of 7 movements");
+    assert.equal(reasonFor(predicted, 7, true), "the browser predicted in 5 of 7 movements");
   });
 
   it("call a gain one only where it is more than chance", () => {

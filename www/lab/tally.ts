@@ -74,7 +74,7 @@ export class Tally {
   add(movement: Movement): boolean {
     const length = approachOf(movement);
     if (length === null) return false;
-    // all before any is counted: an error leaves everything as it was
+    // all before any is counted: after an error everything is as it was
     const scores = [...this.#sums].map(([id, sum]) => {
       const predictions = id === "extrapolation" ? null : this.#predict(id, movement, length, this.#best());
       return [sum, predictions && scoreOf(movement, predictions)] as const;

@@ -40,7 +40,7 @@ export function leading(comparison: Comparison | null, rows: readonly Row[]): st
 }
 
 /** Why a method was not scored on all movements; null where it was. */
-export function left(row: Row, movements: number, isOwn: boolean): string | null {
+export function reasonFor(row: Row, movements: number, isOwn: boolean): string | null {
   if (row.figures.movements === movements) return null;
   if (row.id !== "predicted") return `on ${row.figures.movements} of ${movements} movements`;
   if (row.figures.movements > 0) return `the browser predicted in ${row.figures.movements} of ${movements} movements`;
