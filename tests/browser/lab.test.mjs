@@ -115,7 +115,7 @@ describe("the lab", () => {
     assert.equal(await page.locator("#session-own").isChecked(), true);
     assert.match(
       await page.locator("#status").textContent(),
-      /^Recorded: \d\.\d\d s, \d+ samples\. The pointing model was right for the last \d+ ms before the entry\.$/,
+      /^Recorded, \d\.\d\d s: the pointing model was right for the last \d+ ms before the entry\.$/,
     );
     const rows = Object.fromEntries((await table(page)).map((row) => [row.method, row]));
     const { name, text } = await saved(page);
@@ -298,7 +298,7 @@ describe("the lab", () => {
     await drag(page, movement(from, to, to.width, { seed: 3 }));
     await scored(page);
     assert.equal(await own(page), "1");
-    assert.match(await page.locator("#status").textContent(), /^Recorded: /);
+    assert.match(await page.locator("#status").textContent(), /^Recorded, /);
     const [track] = (await saved(page)).text
       .trim()
       .split("\n")
@@ -376,7 +376,7 @@ describe("the lab", () => {
     await pen("mouseReleased", to, button);
     await scored(page);
     assert.equal(await own(page), "1");
-    assert.match(await page.locator("#status").textContent(), /^Recorded: /);
+    assert.match(await page.locator("#status").textContent(), /^Recorded, /);
     assert.deepEqual(problems, []);
     await close();
   });

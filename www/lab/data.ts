@@ -48,7 +48,7 @@ export function dataControls(parts: DataParts, data: Data): void {
     const more = [
       known > 0 ? ` ${known} were here already.` : "",
       without > 0 ? ` ${without} never enter their target and are not scored.` : "",
-      problems.length > 0 ? " What could not be read is listed below the buttons; all else is as it was." : "",
+      problems.length > 0 ? " What could not be read is listed below the buttons." : "",
     ];
     parts.problems.replaceChildren(...problems.map(item));
     data.write(`Read ${count(added.length, "movement")}.${more.join("")}`);

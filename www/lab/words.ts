@@ -51,9 +51,9 @@ export function reasonFor(row: Row, movements: number, isOwn: boolean): string |
 /** That a movement was recorded, and once it is scored how it was predicted. */
 export function recorded({ samples }: Pick<Movement, "samples">, trace: Pick<Trace, "lead"> | null): string {
   const seconds = (samples.at(-1)?.[0] ?? 0) - (samples[0]?.[0] ?? 0);
-  const taken = `Recorded: ${seconds.toFixed(2)} s, ${count(samples.length, "sample")}.`;
-  if (!trace) return taken;
+  const taken = `Recorded, ${seconds.toFixed(2)} s`;
+  if (!trace) return `${taken}.`;
   return trace.lead > 0
-    ? `${taken} The pointing model was right for the last ${milliseconds(1000 * trace.lead)} before the entry.`
-    : `${taken} The pointing model was right at the entry at the earliest.`;
+    ? `${taken}: the pointing model was right for the last ${milliseconds(1000 * trace.lead)} before the entry.`
+    : `${taken}: the pointing model was not right before the entry.`;
 }
