@@ -12,7 +12,7 @@ import type { ProbabilityList } from "./view/probabilities.ts";
 import type { Chart } from "./view/chart.ts";
 import type { Fan } from "./view/fan.ts";
 import type { Numbers } from "./view/numbers.ts";
-import { ranking } from "./view/order.ts";
+import { ranking } from "../shared/ranking.ts";
 import type { Screen } from "./view/screen.ts";
 import { outcome, prediction } from "./view/sentences.ts";
 import type { Status } from "../shared/status.ts";

@@ -1,5 +1,5 @@
 /** What is there at the first frame: the icons, and what needs no prediction. All else is loaded then, and plays. */
-import { PLACES } from "./destinations.ts";
+import { PLACES } from "../shared/places.ts";
 import example from "./example.js?raw";
 import { listPapers } from "./papers.ts";
 import { get } from "./view/get.ts";

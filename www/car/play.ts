@@ -1,6 +1,6 @@
 /** Puts together what predicts: the watchers and what shows them, the controls, the ghost. */
 import { Demonstration, type Views } from "./demonstration.ts";
-import { PLACES } from "./destinations.ts";
+import { PLACES } from "../shared/places.ts";
 import type { DeviceName } from "./devices.ts";
 import { haunt } from "./ghost.ts";
 import { handOn } from "./shaken.ts";
@@ -8,7 +8,7 @@ import { Chart } from "./view/chart.ts";
 import { controls, type Controlled } from "./view/controls.ts";
 import { Cursor } from "./view/cursor.ts";
 import { Fan } from "./view/fan.ts";
-import { percent } from "./view/format.ts";
+import { percent } from "../shared/format.ts";
 import { Numbers } from "./view/numbers.ts";
 import { ProbabilityList } from "./view/probabilities.ts";
 import type { Screen } from "./view/screen.ts";

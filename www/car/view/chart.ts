@@ -5,7 +5,7 @@ import type { Moment } from "../history.ts";
 import type { Press } from "../press.ts";
 import { bandsOf, OWN, spotOf, stack, type Band } from "./bands.ts";
 import { colours } from "../../shared/colours.ts";
-import { seconds } from "./format.ts";
+import { seconds } from "../../shared/format.ts";
 
 /** A movement shorter than this does not fill the width (seconds). */
 const SHORTEST = 0.6;

@@ -12,7 +12,7 @@ import {
 } from "../model/settings.ts";
 import { DEVICES, type DeviceName, type Ride } from "../devices.ts";
 import { showValue } from "../../shared/slider.ts";
-import { percent } from "./format.ts";
+import { percent } from "../../shared/format.ts";
 import { positionOf, thresholdAt } from "./tradeoff.ts";
 
 /** What the controls set. */

@@ -1,6 +1,6 @@
 /** Whose movement the chart shows, and the outcomes of all presses together. */
 import type { LedgerSummary, Outcome } from "whither/dom";
-import { percent, seconds } from "./format.ts";
+import { percent, seconds } from "../../shared/format.ts";
 
 export interface NumbersParts {
   readonly caption: HTMLElement;

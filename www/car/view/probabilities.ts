@@ -1,7 +1,7 @@
 /** The right-hand side: the leading five, none of them, the time to go. */
 import type { Remaining } from "whither/dom";
-import { percent, seconds } from "./format.ts";
-import { ranking } from "./order.ts";
+import { percent, seconds } from "../../shared/format.ts";
+import { ranking } from "../../shared/ranking.ts";
 
 const SHOWN = 5;
 

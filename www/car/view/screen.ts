@@ -1,7 +1,7 @@
 /** The car's screen: 21 icons that shine as bright as they are probable. */
 import { createElement } from "lucide";
 import type { Box, Point } from "../geometry.ts";
-import type { Place } from "../destinations.ts";
+import type { Place } from "../../shared/places.ts";
 import { destinationOf } from "./walk.ts";
 
 const SVG = "http://www.w3.org/2000/svg";

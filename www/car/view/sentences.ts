@@ -1,7 +1,7 @@
 /** The sentences of the page: what is predicted, the one outcome of a press, what was selected. */
 import type { Press } from "../press.ts";
 import type { Selection, Tally } from "../selecting.ts";
-import { percent, seconds } from "./format.ts";
+import { percent, seconds } from "../../shared/format.ts";
 
 /** What to do, with a mouse or with a finger, which scrolls where it goes up or down. */
 export const INVITATIONS = { fine: "Move towards an icon.", coarse: "Draw a finger sideways, towards an icon." };

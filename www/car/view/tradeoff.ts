@@ -1,7 +1,7 @@
 /** Time saved against wrong selections, for each recorded set: a curve over the thresholds with a point at the one that holds now, and a table. */
 import { THRESHOLDS } from "../model/settings.ts";
 import { RECORDED, SOURCE, type RecordedSet, type Row } from "../evidence.ts";
-import { percent, seconds } from "./format.ts";
+import { percent, seconds } from "../../shared/format.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
