@@ -17,6 +17,7 @@ export const GROUPS = {
   "Anything that moves": {
     scenarios: "Any motion, any destination",
     "rays-and-hands": "Rays and hands",
+    "hand-tracking": "A hand tracker in front of a screen",
     learning: "Learning from recorded movements",
     platforms: "Where it runs",
     errors: "Errors",

@@ -5,6 +5,7 @@ export const PAGES = [
   { path: "index.html", name: "The car" },
   { path: "bay/index.html", name: "Bay" },
   { path: "lab/index.html", name: "Lab" },
+  { path: "cockpit/index.html", name: "Cockpit" },
   { path: "sequences/index.html", name: "Sequences" },
 ];
 

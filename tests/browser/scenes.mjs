@@ -15,6 +15,12 @@ const FILLED = {
     await page.waitForFunction(() => document.querySelectorAll(".berth-line:not(.empty)").length > 12);
   },
   "lab/index.html": (page) => makeMovements(page, 2),
+  // until the first of the hundred gestures is scored
+  "cockpit/index.html": async (page) => {
+    await page.locator("#hundred").scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => document.querySelector("#scores td")?.textContent !== "–");
+    await page.locator("#run").click();
+  },
 };
 
 /** `{ path, name, fill(page) }` for each page, in the order of the navigation. */
