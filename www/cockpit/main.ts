@@ -13,7 +13,6 @@ import { Panel } from "./panel.ts";
 import { PosteriorChart } from "./posterior.ts";
 import { Replayed } from "./replayed.ts";
 import type { Road } from "./road.ts";
-import type { Scene } from "./scene.ts";
 import { FROM_THE_SEAT, type Turn } from "./view/camera.ts";
 import { trace } from "./view/glyphs.ts";
 import { Stage } from "./view/stage.ts";
@@ -56,15 +55,11 @@ async function start(): Promise<void> {
     stage.draw({ trail: scene.trail, moment, touched: over ? scene.icon : null });
     panel.show(moment, over);
     posterior.draw({ ...scene, moments, others, shake });
-    describe(scene, moment && scene.words(moments), over);
+    const words = scene.words(moments);
+    status.show(words);
+    if (!scene.playing) status.announce(words);
     if (hand === driven) refresh();
   };
-  const describe = ({ playing }: Scene, words: string | null, over: boolean) => {
-    if (words === null) return;
-    status.show(words);
-    if (!playing || over) status.announce(words);
-  };
-
   const replayed = new Replayed(
     { play: part("play"), time: part("time"), another: part("another"), root: part("playback") },
     road,
@@ -108,7 +103,7 @@ async function start(): Promise<void> {
       const { azimuth, elevation } = stage.camera.turn;
       const by = TURNS[button.dataset["turn"] ?? ""];
       stage.camera.turnTo(by ? { azimuth: azimuth + by.azimuth, elevation: elevation + by.elevation } : FROM_THE_SEAT);
-      hand.turned();
+      driven.turned();
       refresh();
     });
   }
@@ -128,7 +123,7 @@ async function start(): Promise<void> {
 
   const fit = () => {
     stage.fit();
-    hand.turned();
+    driven.turned();
     refresh();
   };
   theme(part("theme"), () => {

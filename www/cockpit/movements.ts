@@ -6,6 +6,8 @@ import { length, minus } from "./vector.ts";
 /** A hand that stays within so many mm for so many seconds rests. */
 const STILL = 3;
 const REST = 0.6;
+/** So many of the last samples are kept. */
+const KEPT = 600;
 /** It touches nearer to the screen than this, and is off it again from here on, in mm. */
 const TOUCH = 2.5;
 const OFF = 25;
@@ -45,8 +47,8 @@ export class Movements {
     if (this.#resting) return;
     const sample = [seconds, ...tip] as const;
     this.#moments = {
-      shake: [...this.#moments.shake, this.#shake.observe(sample)],
-      calm: [...this.#moments.calm, this.#calm.observe(sample)],
+      shake: [...this.#moments.shake, this.#shake.observe(sample)].slice(-KEPT),
+      calm: [...this.#moments.calm, this.#calm.observe(sample)].slice(-KEPT),
     };
     if (hand[2] > TOUCH) return;
     this.#touched = true;

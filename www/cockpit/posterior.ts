@@ -17,6 +17,9 @@ export interface Course {
 
 /** The shortest time axis, in seconds. */
 const SHORTEST = 0.8;
+/** The icon's line is named where it first is as high as this, the other model's where both differ most, and by so much. */
+const CLEAR = 0.4;
+const APART = 0.08;
 
 export class PosteriorChart {
   readonly #lines: Lines;
@@ -58,7 +61,8 @@ export class PosteriorChart {
   }
 
   /** Now, the touch, when it is expected, and the names of both lines. */
-  #annotate({ context, plot, ink, size, ratio }: Drawing): void {
+  #annotate(drawing: Drawing): void {
+    const { context, plot, ink, size, ratio } = drawing;
     const course = this.#course;
     if (!course || course.moments.length < 2) return;
     const { left, top, width, height } = plot.bbox;
@@ -84,39 +88,23 @@ export class PosteriorChart {
       context.fill();
     }
     context.fillStyle = ink.text;
-    const [name, other] = [LABELS[course.icon] ?? "", course.shake ? "without shake" : "with shake"];
-    const middle = Math.floor(course.moments.length * 0.5);
-    this.#label({ context, plot, size, at: middle, moments: course.moments, text: name, side: -1 });
-    this.#label({
-      context,
-      plot,
-      size,
-      at: Math.floor(course.moments.length * 0.72),
-      moments: course.others,
-      text: other,
-      side: 1,
-    });
+    const of = (list: readonly Moment[], k: number) => list[k]?.probabilities[course.icon] ?? 0;
+    const clear = course.moments.findIndex((_, k) => of(course.moments, k) >= CLEAR);
+    if (clear >= 0) this.#label(drawing, course.moments[clear], LABELS[course.icon] ?? "", -1);
+    const apart = course.moments.map((_, k) => Math.abs(of(course.moments, k) - of(course.others, k)));
+    const most = apart.indexOf(Math.max(...apart));
+    if ((apart[most] ?? 0) >= APART) this.#label(drawing, course.others[most], course.shake ? "without shake" : "with shake", 1);
   }
 
-  /** A name beside its line: above it and left, or below it and right. */
-  #label(label: {
-    context: CanvasRenderingContext2D;
-    plot: Drawing["plot"];
-    size: number;
-    at: number;
-    moments: readonly Moment[];
-    text: string;
-    side: 1 | -1;
-  }): void {
-    const { context, plot, size, moments, at, text, side } = label;
-    const moment = moments[at];
+  /** A name beside its line: left of it, or right. */
+  #label({ context, plot, size }: Drawing, moment: Moment | undefined, text: string, side: 1 | -1): void {
     if (!moment || !this.#course) return;
     const x = plot.valToPos(moment.sample[0] - this.#start, "x", true);
     const y = plot.valToPos(moment.probabilities[this.#course.icon] ?? 0, "y", true);
     const { left, top, width, height } = plot.bbox;
-    const half = context.measureText(text).width;
+    const wide = context.measureText(text).width;
     context.textAlign = side < 0 ? "right" : "left";
-    const inside = side < 0 ? Math.max(left + half + 2, x - 0.6 * size) : Math.min(left + width - half - 2, x + 0.6 * size);
-    context.fillText(text, inside, Math.min(top + height - size, Math.max(top + size, y + side * 0.9 * size)));
+    const inside = side < 0 ? Math.max(left + wide + 2, x - 0.6 * size) : Math.min(left + width - wide - 2, x + 0.6 * size);
+    context.fillText(text, inside, Math.min(top + height - size, Math.max(top + size, y)));
   }
 }

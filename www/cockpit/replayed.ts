@@ -81,9 +81,6 @@ export class Replayed {
     this.#replay = new Replay(this.#seed, road);
   }
 
-  /** A replayed hand stays where it is when the view turns. */
-  turned(): void {}
-
   scene(): Scene {
     const { moments, gesture } = this.#replay;
     const { trail, at } = this.#replay.instant(this.#playback.place / PLACES);
@@ -93,7 +90,7 @@ export class Replayed {
       at,
       touched: true,
       icon: gesture.target,
-      playing: this.#playback.playing,
+      playing: this.#playback.playing || this.#touring,
       words: (moments) => {
         const moment = moments[at];
         if (!moment) return "";

@@ -11,7 +11,7 @@ export interface Scene {
   /** Whether the movement's last moment is a touch; of which icon, else of which one leads. */
   readonly touched: boolean;
   readonly icon: number;
-  /** Whether it goes on by itself. */
+  /** Whether it goes on by itself: then it is shown, and not announced. */
   readonly playing: boolean;
   /** The numbers in a sentence. */
   words(moments: readonly Moment[]): string;

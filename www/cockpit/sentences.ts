@@ -11,7 +11,7 @@ export function prediction(moment: Moment): string {
   const { label, probability } = leader(moment);
   if (!moment.remaining || probability < SURE) return "Not clear yet: the hand has only just set out.";
   const { mean, low, high } = moment.remaining;
-  return `${label}, ${percent(probability)}: there in ${seconds(mean)}, between ${low.toFixed(2)} and ${high.toFixed(2)} s with 80%.`;
+  return `${label} ${percent(probability)}, there in ${seconds(mean)} (80%: ${low.toFixed(2)} to ${high.toFixed(2)} s).`;
 }
 
 /** A touch, and since when what it touches had led. */

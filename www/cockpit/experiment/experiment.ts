@@ -89,7 +89,7 @@ export class Experiment {
   #show(): void {
     const { run, progress, state, table, equal } = this.#parts;
     const done = this.#scores.length;
-    run.textContent = this.#worker ? "Cancel" : done > 0 ? "Another hundred" : "Simulate a hundred";
+    run.textContent = this.#worker ? "Cancel" : done > 0 ? "Another 100" : "Simulate 100";
     progress.value = done / COUNT;
     if (this.#order) {
       const { seed, road } = this.#order;

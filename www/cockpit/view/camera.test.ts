@@ -25,7 +25,7 @@ describe("the camera", () => {
   it("finds the place under a point again", () => {
     for (const turn of [
       { azimuth: -20, elevation: 24 },
-      { azimuth: 40, elevation: 55 },
+      { azimuth: 40, elevation: 40 },
     ]) {
       for (const place of [
         [20, 20, 0],
@@ -58,6 +58,6 @@ describe("the camera", () => {
   });
 
   it("turns no farther than its limits", () => {
-    assert.deepEqual(camera({ azimuth: 500, elevation: -90 }).turn, { azimuth: 50, elevation: 4 });
+    assert.deepEqual(camera({ azimuth: 500, elevation: -90 }).turn, { azimuth: 46, elevation: 6 });
   });
 });

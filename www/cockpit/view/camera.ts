@@ -17,7 +17,7 @@ export interface Turn {
 
 /** About where a driver's eyes are. */
 export const FROM_THE_SEAT: Turn = { azimuth: -20, elevation: 24 };
-const LIMITS = { azimuth: [-65, 50], elevation: [4, 62] } as const;
+const LIMITS = { azimuth: [-50, 46], elevation: [6, 44] } as const;
 
 const MIDDLE: Position = [SCREEN.width / 2 - 58, SCREEN.height / 2 + 52, 100];
 const DISTANCE = 1000;

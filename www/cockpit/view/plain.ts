@@ -85,6 +85,7 @@ export class PlainView implements View {
   #tube({ points, radius, colour }: Tube, camera: Camera): void {
     const places = points.map((point) => camera.project(point));
     const width = 2 * radius * camera.scale(depthOf(points, camera));
+    this.#context.lineCap = "round";
     for (const shade of SHADES) {
       this.#path(places);
       this.#context.lineWidth = shade.width * width;

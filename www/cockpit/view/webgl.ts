@@ -2,7 +2,7 @@
 import * as twgl from "twgl.js";
 import type { Position } from "../cabin.ts";
 import { type Camera, FAR, NEAR } from "./camera.ts";
-import { type Colour, dashes, type Shapes, type View } from "./view.ts";
+import { type Colour, dashes, faded, type Shapes, type View } from "./view.ts";
 
 const DEPTH = `
   float depthAt(float depth) {
@@ -10,7 +10,7 @@ const DEPTH = `
     return 0.5 + 0.5 * ndc;
   }`;
 
-/** A segment from one place to another; its radius is in mm, or negative: in px. */
+/** A segment from one place to another; its radius is in mm, or negative: in px. Its ends are round, or where `cut` is 1 cut off. */
 const STRIP = {
   vertex: `#version 300 es
   in vec2 corner;
@@ -18,6 +18,7 @@ const STRIP = {
   in vec3 b;
   in float radius;
   in vec4 colour;
+  in float cut;
   uniform mat4 matrix;
   uniform vec2 size;
   uniform float scale;
@@ -26,6 +27,7 @@ const STRIP = {
   out float depth;
   out float bulge;
   out vec4 paint;
+  out float edge;
   void main() {
     vec4 from = matrix * vec4(a, 1.0);
     vec4 to = matrix * vec4(b, 1.0);
@@ -41,6 +43,7 @@ const STRIP = {
     reach = way;
     bulge = radius < 0.0 ? radius : r;
     paint = colour;
+    edge = cut;
     // flat on the canvas: what is interpolated is interpolated there
     gl_Position = vec4(place / size * 2.0, 0.0, 1.0);
   }`,
@@ -51,13 +54,15 @@ const STRIP = {
   in float depth;
   in float bulge;
   in vec4 paint;
+  in float edge;
   uniform float scale;
   out vec4 colour;
   ${DEPTH}
   void main() {
     float r = abs(bulge);
-    float off = length(vec2(along.x - clamp(along.x, 0.0, reach), along.y));
-    float cover = clamp(r - off + 0.5, 0.0, 1.0);
+    float beyond = along.x - clamp(along.x, 0.0, reach);
+    float off = edge > 0.5 ? abs(along.y) : length(vec2(beyond, along.y));
+    float cover = clamp(r - off + 0.5, 0.0, 1.0) * (edge > 0.5 && beyond != 0.0 ? 0.0 : 1.0);
     if (cover <= 0.0) discard;
     vec3 rgb = paint.rgb;
     float near = 0.0;
@@ -103,7 +108,7 @@ const SURFACE = {
 };
 
 /** Numbers for a segment, and for a corner of a surface. */
-const SEGMENT = 11;
+const SEGMENT = 12;
 const CORNER = 10;
 const BYTES = Float32Array.BYTES_PER_ELEMENT;
 
@@ -139,6 +144,7 @@ export class WebglView implements View {
       b: each(3, 3),
       radius: each(1, 6),
       colour: each(4, 7),
+      cut: each(1, 11),
     });
     this.#stripArray = twgl.createVertexArrayInfo(gl, this.#strips, strip);
     const corner = (numComponents: number, at: number) => ({
@@ -181,7 +187,7 @@ export class WebglView implements View {
       if (numbers.length > 0) this.#draw(this.#strips, this.#stripArray, this.#segments, numbers, uniforms, SEGMENT);
     };
     drawSurfaces(patches.flatMap(({ corners, colour }) => fan(corners, colour)));
-    drawStrips(tubes.flatMap(({ points, radius, colour }) => segments(points, radius, () => colour)));
+    drawStrips(tubes.flatMap(({ points, radius, colour }) => segments(points, radius, false, () => colour)));
     // what lets through hides nothing
     gl.depthMask(false);
     drawSurfaces(glows.flatMap(({ centre, radius, colour }) => square(centre, radius, colour)));
@@ -190,7 +196,7 @@ export class WebglView implements View {
         const { colour, from = 1 } = line;
         const radius = (-line.width / 2) * this.#ratio;
         return dashes(line).flatMap((points) =>
-          segments(points, radius, (share) => [colour[0], colour[1], colour[2], colour[3] * (from + (1 - from) * share)]),
+          segments(points, radius, line.from !== undefined, (share) => faded(colour, from + (1 - from) * share)),
         );
       }),
     );
@@ -226,11 +232,11 @@ function paint([red, green, blue, alpha]: Colour): number[] {
 }
 
 /** From each point to the next; `colourAt` is asked at the share of the way. */
-function segments(points: readonly Position[], radius: number, colourAt: (share: number) => Colour): number[] {
+function segments(points: readonly Position[], radius: number, cut: boolean, colourAt: (share: number) => Colour): number[] {
   const last = points.length - 1;
   return points
     .slice(1)
-    .flatMap((point, k) => [...(points[k] as Position), ...point, radius, ...paint(colourAt((k + 1) / last))]);
+    .flatMap((point, k) => [...(points[k] as Position), ...point, radius, ...paint(colourAt((k + 1) / last)), Number(cut)]);
 }
 
 /** Triangles from the first corner to all others. */
