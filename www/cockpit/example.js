@@ -10,7 +10,7 @@ const icons = [
 const options = { none: 0.05, noise: 2, shake: 20 };
 const predictor = new Predictor(handScenario(icons, options));
 
-// for every frame of a hand tracker: the fingertip, z towards the driver
+// for every frame of a tracker: the fingertip, z to the driver
 export function onHand(seconds, [x, y, z]) {
   predictor.observe(seconds, [x, y, z]);
   return { ...predictor.best, ...predictor.remaining };

@@ -33,8 +33,8 @@ export interface LinesOptions {
   readonly series: readonly Series[];
   /** A place on the x axis in words. */
   x(value: number): string;
-  /** Whether there is room for names, in rem of the chart's width. */
-  readonly named: number;
+  /** The chart's width in rem from which on its lines are named. @defaultValue they never are */
+  readonly named?: number;
   /** Draws more over it. */
   more?(drawing: Drawing): void;
 }
@@ -83,7 +83,7 @@ export class Lines {
   #make(): uPlot {
     const rem = this.#rem;
     const { clientWidth: width, clientHeight: height } = this.#root;
-    const named = width >= this.#options.named * rem;
+    const named = width >= (this.#options.named ?? Number.POSITIVE_INFINITY) * rem;
     const axis: uPlot.Axis = {
       stroke: this.#ink.muted,
       font: `${0.75 * rem}px ${getComputedStyle(this.#root).fontFamily}`,

@@ -30,7 +30,6 @@ export class PosteriorChart {
     this.#lines = new Lines(root, {
       series: [...TARGETS.map(() => quiet), { ink: "text", width: 1.5, dash: [4, 4] }, { ink: "light", width: 3 }],
       x: (value) => `${Number(value.toFixed(2))} s`,
-      named: Number.POSITIVE_INFINITY,
       more: (drawing) => this.#annotate(drawing),
     });
   }

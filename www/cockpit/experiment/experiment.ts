@@ -62,7 +62,7 @@ export class Experiment {
       if (this.#scores.length === COUNT) this.#stop(true);
       this.#refresh();
     });
-    worker.addEventListener("error", ({ message }) => this.#fail(message));
+    worker.addEventListener("error", ({ message }) => this.#fail(message || "the worker did not start"));
     worker.postMessage(this.#order);
     this.#refresh();
   }
@@ -115,7 +115,7 @@ function row({ id, name, line }: (typeof METHODS)[number]): HTMLTableRowElement 
   head.setAttribute("role", "rowheader");
   head.textContent = name;
   if (line) head.dataset["line"] = id;
-  const cells = Array.from({ length: 4 }, () => {
+  const cells = Array.from({ length: 5 }, () => {
     const cell = document.createElement("td");
     cell.setAttribute("role", "cell");
     cell.textContent = "–";
@@ -125,12 +125,13 @@ function row({ id, name, line }: (typeof METHODS)[number]): HTMLTableRowElement 
   return element;
 }
 
-function fill(element: Element | null, { right, loss, cost }: Row): void {
-  const percent = (at: number) => `${Math.round(100 * (right[at] ?? 0))}%`;
+function fill(element: Element | null, { right, time, loss, cost }: Row): void {
+  const percent = (share = 0) => `${Math.round(100 * share)}%`;
   const microseconds = Math.round(cost * 1e6);
   const texts = [
-    percent(HALF),
-    percent(THREE_QUARTERS),
+    percent(time),
+    percent(right[HALF]),
+    percent(right[THREE_QUARTERS]),
     ...(loss === null ? ["–", "–"] : [loss.toFixed(2), `${microseconds} µs`]),
   ];
   element?.querySelectorAll("td").forEach((cell, k) => {

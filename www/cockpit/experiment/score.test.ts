@@ -9,7 +9,7 @@ const ROAD = { deviation: 4, frequency: 6 };
 const COUNT = 12;
 
 /** Without what depends on the machine. */
-const numbers = (rows: readonly Row[]) => rows.map(({ right, loss, difference }) => ({ right, loss, difference }));
+const numbers = (rows: readonly Row[]) => rows.map(({ right, time, loss, difference }) => ({ right, time, loss, difference }));
 
 describe("the methods over simulated gestures", () => {
   let rows: Row[];
@@ -41,6 +41,8 @@ describe("the methods over simulated gestures", () => {
       const { right, loss } = row(id);
       assert.equal(right.length, SHARES.length);
       assert.ok((right[0] ?? 1) < 0.35 && (right.at(-2) ?? 0) > 0.6, `${id}: ${right}`);
+      const mean = right.reduce((sum, share) => sum + share, 0) / right.length;
+      assert.ok(Math.abs(row(id).time - mean) < 0.05, `${row(id).time} of the time, ${mean} at the shares`);
       assert.ok(loss !== null && loss < Math.log(21), `${id}: ${loss}`);
     }
     assert.equal(row("nearest").loss, null);

@@ -15,6 +15,8 @@ const LEAST = 1e-12;
 export interface Score {
   /** At each share, whether the right icon is on top. */
   readonly right: readonly boolean[];
+  /** The share of the time during which it is, over all observations. */
+  readonly time: number;
   /** The mean of minus the logarithm of the right icon's probability; null where there are no probabilities. */
   readonly loss: number | null;
   /** The largest difference of a probability from that of the method that has to be the same; 0 without one. */
@@ -45,8 +47,10 @@ export class Scorer {
       const twin = results[METHODS.findIndex(({ id }) => id === same)];
       const at = SHARES.map((share) => posteriors[Math.round(share * (posteriors.length - 1))] as Float64Array);
       const loss = (posterior: Float64Array) => -Math.log(Math.max(LEAST, posterior[drawn.target] ?? 0));
+      const isRight = (posterior: Float64Array) => ranking(posterior)[0] === drawn.target;
       return {
-        right: at.map((posterior) => ranking(posterior)[0] === drawn.target),
+        right: at.map(isRight),
+        time: posteriors.filter(isRight).length / posteriors.length,
         loss: this.#predictors[k] ? at.reduce((sum, posterior) => sum + loss(posterior), 0) / at.length : null,
         difference: twin ? largest(posteriors, twin.posteriors) : 0,
         seconds,

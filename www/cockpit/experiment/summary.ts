@@ -5,6 +5,8 @@ import { type Score, SHARES } from "./score.ts";
 export interface Row {
   /** At each share of the time, the share of the gestures with the right icon on top. */
   readonly right: readonly number[];
+  /** The mean share of the time with it on top. */
+  readonly time: number;
   /** Mean log loss in nats; null where there are no probabilities. */
   readonly loss: number | null;
   readonly difference: number;
@@ -19,6 +21,7 @@ export function summary(scores: readonly (readonly Score[])[]): Row[] {
     const mean = (of: (score: Score) => number) => own.reduce((sum, score) => sum + of(score), 0) / own.length;
     return {
       right: SHARES.map((_, at) => mean(({ right }) => Number(right[at]))),
+      time: mean(({ time }) => time),
       loss: own[0]?.loss === null ? null : mean(({ loss }) => loss ?? 0),
       difference: Math.max(...own.map(({ difference }) => difference)),
       cost: mean(({ seconds }) => seconds) / mean(({ observations }) => observations),

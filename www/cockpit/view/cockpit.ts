@@ -78,17 +78,22 @@ export class Cockpit {
       lines: [
         ...lines,
         ...(moment?.paths ?? []).map(({ icon, points }) => ({
-          points: tip ? [tip, ...points.slice(1)] : points,
+          points: (tip ? [tip, ...points.slice(1)] : points).map(before),
           width: 2.25 * unit,
           colour: faded(light, Math.min(1, 0.12 + share(icon))),
         })),
-        { points: trail, width: 2.5 * unit, colour: text, from: 0 },
+        { points: trail.map(before), width: 2.5 * unit, colour: text, from: 0 },
         ...(tip
           ? [{ points: [tip, [tip[0], tip[1], 0] as const], width: unit, colour: faded(text, 0.5), dash: [5, 6] as const }]
           : []),
       ],
     };
   }
+}
+
+/** Not behind the screen, where the noise of a tracker has it. */
+function before([x, y, z]: Position): Position {
+  return [x, y, Math.max(1.5, z)];
 }
 
 function lighter(a: Colour, b: Colour): Colour {

@@ -13,8 +13,7 @@ export type Glyph = readonly (readonly (readonly [x: number, y: number])[])[];
 /** Traces icons; the shapes have to be in the document for that. */
 export function trace(icons: readonly IconNode[]): Glyph[] {
   const canvas = document.createElementNS(SVG, "svg");
-  canvas.setAttribute("width", "0");
-  canvas.setAttribute("height", "0");
+  canvas.setAttribute("class", "hidden");
   canvas.setAttribute("aria-hidden", "true");
   document.body.append(canvas);
   const glyphs = icons.map((icon) =>

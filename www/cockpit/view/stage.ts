@@ -77,7 +77,7 @@ export class Stage {
 
 async function viewOn(root: HTMLElement): Promise<View> {
   const canvas = canvasOn(root);
-  const gl = canvas.getContext("webgl2", { antialias: false });
+  const gl = canvas.getContext("webgl2");
   if (!gl || isEmulated(gl)) {
     gl?.getExtension("WEBGL_lose_context")?.loseContext();
     canvas.remove();
