@@ -3,9 +3,9 @@
 /** Every page, in the order of the navigation. */
 export const PAGES = [
   { path: "index.html", name: "The car" },
+  { path: "cockpit/index.html", name: "Cockpit" },
   { path: "bay/index.html", name: "Bay" },
   { path: "lab/index.html", name: "Lab" },
-  { path: "cockpit/index.html", name: "Cockpit" },
   { path: "sequences/index.html", name: "Sequences" },
 ];
 
