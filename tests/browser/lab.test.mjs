@@ -8,7 +8,7 @@ import { describe, it } from "node:test";
 import { root } from "../../scripts/run.mjs";
 import { movement } from "./hand.mjs";
 import { asked, makeMovements, scored } from "./lab.mjs";
-import { drag, hosted, mouse, open, POLICY } from "./support.mjs";
+import { drag, hosted, mouse, nextFrame, open, POLICY } from "./support.mjs";
 
 const PATH = "lab/index.html";
 const CALM = { reducedMotion: "reduce" };
@@ -194,6 +194,40 @@ describe("the lab", () => {
     await close();
   });
 
+  it("lights targets as much as they are probable while the pointer moves, where that is wanted", async () => {
+    const { page, problems, close } = await fresh();
+    const hand = await mouse(page);
+    const lights = () =>
+      page.evaluate(() =>
+        [...document.querySelectorAll("#field .target")].map((target) => ({
+          asked: target.classList.contains("asked"),
+          light: Number(target.style.getPropertyValue("--probability")),
+        })),
+      );
+    const most = async () => (await lights()).reduce((best, each) => (each.light > best.light ? each : best));
+    const to = await asked(page);
+    const from = { x: to.x - 40, y: to.y - 250 };
+    await page.waitForFunction(() => document.documentElement.hasAttribute("data-live"));
+    const path = movement(from, to, to.width, { seed: 2, share: 0.9 });
+    await hand.play(path);
+    await nextFrame(page);
+    const top = await most();
+    assert.ok(top.asked && top.light > 0.6, JSON.stringify(top));
+    const sum = (await lights()).reduce((total, { light }) => total + light, 0);
+    assert.ok(Math.abs(sum - 1) < 0.01, `${sum}`);
+    assert.equal(await fact(page, "now"), `${(100 * top.light).toFixed(0)}%, the right one`);
+    await hand.press(to);
+    await scored(page);
+    assert.equal((await most()).light, 0);
+    assert.equal(await fact(page, "now"), "–");
+    await page.locator("#live").uncheck();
+    await makeMovements(page, 1);
+    await hand.play(movement(to, await asked(page), to.width, { seed: 3, share: 0.9 }));
+    assert.equal((await most()).light, 0);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
   it("takes a file that is dropped on it", async () => {
     const { page, problems, close } = await fresh();
     const { text } = await saved(page);
@@ -340,7 +374,7 @@ describe("the lab", () => {
     await page.waitForFunction(() => document.documentElement.dataset.ready);
     assert.equal(await own(page), "3");
     assert.equal(await page.locator("#keep").isChecked(), true);
-    assert.equal(await page.locator("#status").textContent(), "3 movements from before. For more, press the lit target.");
+    assert.equal(await page.locator("#status").textContent(), "3 movements from before. For more, press the marked target.");
     await scored(page);
     // where the browser expected the pointer is kept with them
     assert.ok((await table(page)).find(({ method }) => method === "predicted").time > 0);
@@ -387,7 +421,7 @@ describe("the lab", () => {
     const to = await asked(page);
     await hand.play(movement({ x: to.x - 150, y: to.y - 80 }, { x: to.x - 90, y: to.y }, to.width, { seed: 1 }));
     await hand.press({ x: to.x - 90, y: to.y });
-    assert.equal(await page.locator("#status").textContent(), "Beside it: press the lit target.");
+    assert.equal(await page.locator("#status").textContent(), "Beside it: press the marked target.");
     assert.equal(await page.locator("#session-simulated").isChecked(), true);
     await page.mouse.move(10, 10);
     await hand.press(to);
@@ -409,6 +443,7 @@ describe("the lab", () => {
     );
     await page.locator("[data-method=nearest] .method").focus();
     await page.keyboard.press("Space");
+    await nextFrame(page);
     assert.equal(await page.locator(".method[aria-pressed=true]").textContent(), "Nearest target");
     assert.equal(
       await page.locator("#calibration-words").textContent(),
@@ -419,6 +454,7 @@ describe("the lab", () => {
       /^Nearest target: the right target was on top after \d+ of \d+/,
     );
     await page.locator("[data-method=bridging] .method").click();
+    await nextFrame(page);
     const shown = await page.locator("#calibration-words").textContent();
     const error = (await table(page)).find(({ method }) => method === "bridging").calibration;
     assert.ok(shown.startsWith(`Bridging distributions: calibration error ${error.toFixed(3)} over `), shown);

@@ -1,6 +1,6 @@
 /** The field: targets, one of which is asked for, a pointer that goes there and presses, and where it has been. */
 import { LAYOUTS, nextTarget, targetsOf, type Layout } from "./layouts.ts";
-import { contains, places, type Box, type Movement, type Place } from "./movement.ts";
+import { contains, places, type Box, type Movement, type Place, type Sample } from "./movement.ts";
 import { coloured, mappingOf } from "./path.ts";
 import { Recorder, type Recording } from "./recorder.ts";
 import { points, svg, targetShape } from "./svg.ts";
@@ -21,6 +21,8 @@ export interface FieldEvents {
   pressed(press: { readonly targets: readonly Box[]; readonly target: number; readonly recording: Recording | null }): void;
   /** Something else was pressed, or a finger was lifted beside it. */
   missed(by: "press" | "lift" | "tap"): void;
+  /** At most once a frame: the samples of the movement so far; none where it is over. */
+  moved(samples: readonly Sample[]): void;
 }
 
 /** Movements that stay drawn. */
@@ -39,6 +41,8 @@ export class Field {
   };
   #layout: Layout = "ring";
   #targets: readonly Box[] = [];
+  /** As they are drawn. */
+  #shapes: readonly SVGElement[] = [];
   #asked = 0;
   /** The target that was pressed before. */
   #before = 0;
@@ -69,6 +73,11 @@ export class Field {
     return this.#targets;
   }
 
+  /** The target that is to be pressed. */
+  get asked(): number {
+    return this.#asked;
+  }
+
   /** The target on which the next movement begins. */
   get from(): number {
     return this.#before;
@@ -96,13 +105,19 @@ export class Field {
     );
   }
 
-  /** Where another hand's pointer has been, and is; it is nowhere without a place. */
-  showArrow(path: readonly Place[]): void {
+  /** Another hand's pointer, after these samples; it is nowhere without one. */
+  showArrow(samples: readonly Sample[]): void {
     const { arrow, trail } = this.#layers;
+    const path = places({ samples });
     const [x, y] = path.at(-1) ?? [0, 0];
     arrow.setAttribute("visibility", path.length > 0 ? "visible" : "hidden");
     arrow.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
     trail.setAttribute("points", points(path));
+  }
+
+  /** Lights each target as much as it is probable; without probabilities none. */
+  light(probabilities: ArrayLike<number> | null): void {
+    this.#shapes.forEach((shape, k) => shape.style.setProperty("--probability", (probabilities?.[k] ?? 0).toFixed(3)));
   }
 
   /** Another hand has pressed this target, and goes to the next. */
@@ -126,14 +141,13 @@ export class Field {
 
   #showTargets(): void {
     const round = this.#layout === "ring";
-    const shapes = this.#targets.map((box, k) =>
+    this.#shapes = this.#targets.map((box, k) =>
       targetShape(box, round, k === this.#asked ? "target asked" : k === this.#before ? "target before" : "target"),
     );
-    const asked = this.#targets[this.#asked];
-    if (asked) shapes.push(svg("circle", { class: "asked-mark", cx: asked[0], cy: asked[1], r: 5 }));
-    this.#layers.targets.replaceChildren(...shapes);
+    const [x, y] = this.#targets[this.#asked] ?? [0, 0];
+    this.#layers.targets.replaceChildren(...this.#shapes, svg("circle", { class: "asked-mark", cx: x, cy: y, r: 5 }));
     this.#moveHandle();
-    this.#drawTrail();
+    this.#layers.trail.setAttribute("points", "");
   }
 
   /** To a place; without one to the target that was pressed before. */
@@ -159,7 +173,7 @@ export class Field {
     field.addEventListener("pointerleave", (event) => {
       if (event.pointerType === "touch" || this.#dragged) return;
       this.#recorder.clear();
-      this.#drawTrail();
+      this.#follow();
     });
     field.addEventListener("pointerdown", (event) => {
       measure();
@@ -170,7 +184,7 @@ export class Field {
     field.addEventListener("click", (event) => {
       const { pointerType } = event as PointerEvent;
       if (event.target === handle || pointerType === "mouse") return;
-      if (pointerType === "pen" && this.#recorder.trail.length > 1) this.#press(this.#at(event), "press");
+      if (pointerType === "pen" && this.#recorder.current.length > 1) this.#press(this.#at(event), "press");
       else this.#events.missed("tap");
     });
     handle.addEventListener("pointermove", (event) => {
@@ -190,6 +204,7 @@ export class Field {
       this.#dragged = null;
       this.#recorder.clear();
       this.#moveHandle();
+      this.#follow();
     });
   }
 
@@ -218,7 +233,7 @@ export class Field {
     if (ahead) this.#recorder.expect(this.#at(ahead));
     this.#frame ||= requestAnimationFrame(() => {
       this.#frame = 0;
-      this.#drawTrail();
+      this.#follow();
     });
   }
 
@@ -227,16 +242,21 @@ export class Field {
     const box = this.#targets[target];
     if (!box || !contains(box, place)) {
       if (by === "lift") this.#recorder.clear();
+      this.#follow();
       this.#events.missed(by);
       return;
     }
     const targets = this.#targets;
     const recording = this.#recorder.take(box);
     this.goOn(target, nextTarget(this.#layout, target, targets.length, Math.random));
+    this.#follow();
     this.#events.pressed({ targets, target, recording });
   }
 
-  #drawTrail(): void {
-    this.#layers.trail.setAttribute("points", points(this.#recorder.trail));
+  /** The pointer has moved, or its movement is over. */
+  #follow(): void {
+    const samples = this.#recorder.current;
+    this.#layers.trail.setAttribute("points", points(places({ samples })));
+    this.#events.moved(samples);
   }
 }

@@ -5,17 +5,15 @@ import { theme } from "../shared/theme.ts";
 import example from "./example.js?raw";
 import { dataControls } from "./data.ts";
 import { Field, type Layout } from "./field.ts";
-import { Fitting } from "./fitting.ts";
 import { keepMore, kept } from "./keep.ts";
-import { approachOf, type Movement } from "./movement.ts";
-import { Panel } from "./panel.ts";
-import { Pictures } from "./pictures.ts";
+import { Live } from "./live.ts";
+import { approachOf, type Movement, type Sample } from "./movement.ts";
 import { Player } from "./player.ts";
 import { hasExpected } from "./recorder.ts";
 import { Sessions, type SessionName } from "./sessions.ts";
 import { simulate } from "./simulated.ts";
-import { Table } from "./table.ts";
-import { count, leading, recorded } from "./words.ts";
+import { Views } from "./views.ts";
+import { count, recorded } from "./words.ts";
 
 /** The simulated movements that are there at once. */
 const AT_FIRST = 24;
@@ -23,7 +21,7 @@ const AT_FIRST = 24;
 const MORE = 20;
 
 /** What there is to do, by the pointer that the visitor has. */
-const TASK = matchMedia("(hover: none)").matches ? "drag the ring to the lit target" : "press the lit target";
+const TASK = matchMedia("(hover: none)").matches ? "drag the ring to the marked target" : "press the marked target";
 
 const status = new Status(part("status"), part("announcement"));
 
@@ -49,7 +47,6 @@ begin(status, async () => {
     {
       pressed({ targets, target, recording }) {
         player.stop();
-        show("own");
         const movement = recording && {
           id: `${field.layout}-${Date.now().toString(36)}-${(presses += 1)}`,
           user: "visitor",
@@ -63,56 +60,42 @@ begin(status, async () => {
           return;
         }
         fresh = movement.id;
+        show("own");
         status.show(recorded(movement, null));
         add([movement]);
       },
       missed(by) {
         status.write(MISSED[by]);
       },
+      moved: (samples) => predict(samples),
     },
   );
 
-  const table = new Table(part<HTMLTableElement>("methods"), () => draw());
-  const pictures = new Pictures({
-    movement: part<SVGSVGElement>("movement"),
-    course: part<SVGSVGElement>("course"),
-    calibration: part<SVGSVGElement>("calibration"),
-    movementWords: part("movement-words"),
-    courseWords: part("course-words"),
-    calibrationWords: part("calibration-words"),
-  });
-  const panel = new Panel(
-    {
-      facts: part("facts"),
-      own: part<HTMLInputElement>("session-own"),
-      simulated: part<HTMLInputElement>("session-simulated"),
-      ownCount: part("own-count"),
-      simulatedCount: part("simulated-count"),
-      progress: part<HTMLProgressElement>("scoring"),
-    },
+  /** What is predicted while a pointer moves, once that is loaded, and where it is wanted. */
+  let live: Live | null = null;
+  const wanted = part<HTMLInputElement>("live");
+  function predict(samples: readonly Sample[]): void {
+    const probabilities = samples.length > 0 && wanted.checked && live ? live.follow(samples) : null;
+    field.light(probabilities);
+    views.panel.now(probabilities, field.asked);
+  }
+  const aim = () => live?.setTargets(field.targets);
+  wanted.addEventListener("change", () => predict([]));
+
+  const views = new Views(
+    status,
     (name) => {
       player.stop();
       show(name);
     },
-  );
-  const fitting = new Fitting(
-    {
-      fit: part<HTMLButtonElement>("fit"),
-      cancel: part<HTMLButtonElement>("cancel"),
-      progress: part<HTMLProgressElement>("fitting"),
-      verdict: part("verdict"),
-      constants: part("constants"),
-      code: part("constants-code"),
-      copy: part<HTMLButtonElement>("copy"),
-    },
-    (text) => status.announce(text),
+    () => refresh(),
   );
 
   const failed = (error: unknown) => status.write(`Something does not work here: ${reasonOf(error)}`, true);
   const sessions = new Sessions({
     changed(name) {
       const { movements, waiting } = sessions.get(name);
-      panel.count(name, movements.length);
+      views.panel.count(name, movements.length);
       if (waiting === 0) scoredFirst();
       if (name === shown) refresh();
     },
@@ -131,26 +114,17 @@ begin(status, async () => {
   function draw(): void {
     frame = 0;
     const session = sessions.get(shown);
-    const { movements, summary, last, waiting } = session;
-    panel.show(shown, session);
-    table.show(summary, last, shown === "own");
-    pictures.draw(summary, last, table.shown);
-    field.drawPaths(movements, last);
-    fitting.show(movements);
-    part("leading").textContent = leading(summary?.comparison ?? null, summary?.rows ?? []);
-    part<HTMLButtonElement>("export").disabled = movements.length === 0;
-    document.documentElement.toggleAttribute("data-scoring", waiting > 0);
-    if (!last) return;
-    showExampleOf(last.movement).catch(failed);
-    if (last.movement.id !== fresh) return;
+    views.draw(shown, session);
+    field.drawPaths(session.movements, session.last);
+    if (!session.last || session.last.movement.id !== fresh) return;
     fresh = null;
-    status.write(recorded(last.movement, last.trace));
+    status.write(recorded(session.last.movement, session.last.trace));
   }
 
   function show(name: SessionName): void {
     if (name === shown) return;
     shown = name;
-    fitting.clear();
+    views.change();
     if (name === "simulated") showExample();
     refresh();
   }
@@ -170,7 +144,10 @@ begin(status, async () => {
 
   const hand = part<HTMLButtonElement>("hand");
   const player = new Player({
-    moved: (path) => field.showArrow(path),
+    moved(samples) {
+      field.showArrow(samples);
+      predict(samples);
+    },
     arrived(movement, [next]) {
       sessions.add("simulated", [movement]);
       field.goOn(movement.target, next?.target ?? field.from);
@@ -217,12 +194,14 @@ begin(status, async () => {
   part("layouts").addEventListener("change", (event) => {
     player.stop();
     field.layout = (event.target as HTMLInputElement).value as Layout;
+    aim();
     if (shown === "simulated") showExample();
     status.write(`${count(field.targets.length, "target")}: ${TASK}.`);
     refresh();
   });
   new ResizeObserver(() => {
     if (!field.fit()) return;
+    aim();
     player.stop();
     refresh();
   }).observe(part("field"));
@@ -235,19 +214,15 @@ begin(status, async () => {
     status.write(`${count(before.length, "movement")} from before. For more, ${TASK}.`);
   } else status.write(`A simulated hand’s movements, until you ${TASK} yourself.`);
   await firstScored;
+  Live.begin().then((begun) => {
+    live = begun;
+    aim();
+    document.documentElement.toggleAttribute("data-live", true);
+  }, failed);
 });
 
-/** What the ten lines give of a movement, up to its entry. */
-async function showExampleOf(movement: Movement): Promise<void> {
-  const { rightAfter } = await import("./example.js");
-  const samples = movement.samples.slice(0, approachOf(movement) ?? 0);
-  const right = rightAfter({ ...movement, samples }).filter(Boolean).length;
-  part("example-result").textContent =
-    `They ran just now, on the last movement: right after ${right} of ${count(samples.length, "sample")} up to the entry.`;
-}
-
 const MISSED = {
-  press: "Beside it: press the lit target.",
-  lift: "Lifted beside it: drag the ring to the lit target and lift there.",
-  tap: "A tap has no movement to predict from: drag the ring to the lit target and lift there.",
+  press: "Beside it: press the marked target.",
+  lift: "Lifted beside it: drag the ring to the marked target and lift there.",
+  tap: "A tap has no movement to predict from: drag the ring to the marked target and lift there.",
 };

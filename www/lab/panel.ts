@@ -44,6 +44,16 @@ export class Panel {
     this.#fact("loss", any ? `${nats(any.loss)} nats` : NOTHING);
   }
 
+  /** What is predicted now, of which target `asked` is the right one; nothing without probabilities. */
+  now(probabilities: ArrayLike<number> | null, asked: number): void {
+    if (!probabilities) {
+      this.#fact("now", NOTHING);
+      return;
+    }
+    const top = Array.from(probabilities).reduce((best, p, k, all) => (p > (all[best] ?? 0) ? k : best), 0);
+    this.#fact("now", `${percent(100 * (probabilities[top] ?? 0))}, ${top === asked ? "the right one" : "another one"}`);
+  }
+
   #fact(name: string, words: string): void {
     const element = this.#parts.facts.querySelector(`[data-fact=${name}]`);
     if (element && element.textContent !== words) element.textContent = words;

@@ -1,9 +1,9 @@
 /** Plays movements of the simulated hand in the field, as an arrow that anyone can follow. */
-import { places, type Movement, type Place } from "./movement.ts";
+import type { Movement, Sample } from "./movement.ts";
 
 export interface PlayerEvents {
-  /** Where it has been so far in this movement, and is; nowhere when it goes. */
-  moved(path: readonly Place[]): void;
+  /** Its samples so far in this movement; none when it goes. */
+  moved(samples: readonly Sample[]): void;
   /** A movement is over; `rest` are those that follow. */
   arrived(movement: Movement, rest: readonly Movement[]): void;
   /** It plays no more. */
@@ -35,15 +35,15 @@ export class Player {
       this.#events.ended();
       return;
     }
-    const path = places(movement);
+    const { samples } = movement;
     const begin = performance.now();
     let at = 0;
     const step = () => {
       const now = ((performance.now() - begin) / 1000) * SPEED;
-      while (at + 1 < path.length && (movement.samples[at + 1]?.[0] ?? 0) <= now) at += 1;
-      this.#events.moved(path.slice(0, at + 1));
+      while (at + 1 < samples.length && (samples[at + 1]?.[0] ?? 0) <= now) at += 1;
+      this.#events.moved(samples.slice(0, at + 1));
       this.#frame = requestAnimationFrame(step);
-      if (at + 1 < path.length) return;
+      if (at + 1 < samples.length) return;
       this.#events.arrived(movement, rest);
       // where that has not stopped it
       if (!this.#frame) return;

@@ -68,9 +68,9 @@ export class Recorder {
     this.#latest = null;
   }
 
-  /** Where it went since the last rest, for drawing. */
-  get trail(): readonly Place[] {
-    return (this.#parts.at(-1) ?? []).map(({ place }) => place);
+  /** What was recorded since the last rest. */
+  get current(): readonly Sample[] {
+    return (this.#parts.at(-1) ?? []).map(({ time, place }) => [time, ...place]);
   }
 }
 
