@@ -51,7 +51,8 @@ export function dataControls(parts: DataParts, data: Data): void {
       problems.length > 0 ? " What could not be read is listed below the buttons." : "",
     ];
     parts.problems.replaceChildren(...problems.map(item));
-    data.write(`Read ${count(added.length, "movement")}.${more.join("")}`);
+    const read = movements.length > 0 ? `Read ${count(added.length, "movement")}.` : "No movement could be read.";
+    data.write(`${read}${more.join("")}`);
   }
 }
 

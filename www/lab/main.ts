@@ -5,20 +5,14 @@ import { theme } from "../shared/theme.ts";
 import example from "./example.js?raw";
 import { dataControls } from "./data.ts";
 import { Field, type Layout } from "./field.ts";
+import { Hand } from "./hand.ts";
 import { keepMore, kept } from "./keep.ts";
 import { Live } from "./live.ts";
 import { approachOf, type Movement, type Sample } from "./movement.ts";
-import { Player } from "./player.ts";
 import { hasExpected } from "./recorder.ts";
 import { Sessions, type SessionName } from "./sessions.ts";
-import { simulate } from "./simulated.ts";
 import { Views } from "./views.ts";
 import { count, recorded } from "./words.ts";
-
-/** The simulated movements that are there at once. */
-const AT_FIRST = 24;
-/** Those of one press of the button. */
-const MORE = 20;
 
 /** What there is to do, by the pointer that the visitor has. */
 const TASK = matchMedia("(hover: none)").matches ? "drag the ring to the marked target" : "press the marked target";
@@ -31,9 +25,6 @@ begin(status, async () => {
   await document.fonts.ready;
 
   let shown: SessionName = "simulated";
-  /** The arrangements that have an example. */
-  const examples = new Set<Layout>();
-  let seed = 1;
   /** The visitor's presses, which name movements. */
   let presses = 0;
   /** The visitor's last movement, until it is stated how it was predicted. */
@@ -46,7 +37,7 @@ begin(status, async () => {
     { field: part("field"), drawing: part<SVGSVGElement>("drawing"), handle: part("handle") },
     {
       pressed({ targets, target, recording }) {
-        player.stop();
+        hand.stop();
         const movement = recording && {
           id: `${field.layout}-${Date.now().toString(36)}-${(presses += 1)}`,
           user: "visitor",
@@ -85,7 +76,7 @@ begin(status, async () => {
   const views = new Views(
     status,
     (name) => {
-      player.stop();
+      hand.stop();
       show(name);
     },
     () => refresh(),
@@ -125,14 +116,8 @@ begin(status, async () => {
     if (name === shown) return;
     shown = name;
     views.change();
-    if (name === "simulated") showExample();
+    if (name === "simulated") hand.showExample();
     refresh();
-  }
-
-  /** The simulated hand's first movements in this arrangement of the targets. */
-  function showExample(): void {
-    if (!examples.has(field.layout)) sessions.add("simulated", simulate(field, AT_FIRST, 1));
-    examples.add(field.layout);
   }
 
   /** To the visitor's own. */
@@ -142,28 +127,13 @@ begin(status, async () => {
     return added;
   }
 
-  const hand = part<HTMLButtonElement>("hand");
-  const player = new Player({
-    moved(samples) {
-      field.showArrow(samples);
-      predict(samples);
+  const hand = new Hand(part<HTMLButtonElement>("hand"), field, {
+    begins(words) {
+      show("simulated");
+      status.write(words);
     },
-    arrived(movement, [next]) {
-      sessions.add("simulated", [movement]);
-      field.goOn(movement.target, next?.target ?? field.from);
-    },
-    ended() {
-      hand.textContent = `Let the simulated hand do ${MORE}`;
-    },
-  });
-  hand.addEventListener("click", () => {
-    if (player.playing) return player.stop();
-    show("simulated");
-    hand.textContent = "Stop the simulated hand";
-    status.write(`The simulated hand of whither/testing makes ${MORE} movements.`);
-    const movements = simulate(field, MORE, (seed += 1), field.from);
-    field.goOn(field.from, movements[0]?.target ?? field.from);
-    player.play(movements, matchMedia("(prefers-reduced-motion: reduce)").matches);
+    moved: (samples) => predict(samples),
+    made: (movements) => void sessions.add("simulated", movements),
   });
 
   dataControls(
@@ -179,7 +149,7 @@ begin(status, async () => {
       shown: () => ({ movements: sessions.get(shown).movements, name: shown === "own" ? "lab" : "simulated" }),
       own: () => sessions.get("own").movements,
       add(movements) {
-        player.stop();
+        hand.stop();
         if (movements.length > 0) show("own");
         return add(movements);
       },
@@ -192,21 +162,21 @@ begin(status, async () => {
   );
 
   part("layouts").addEventListener("change", (event) => {
-    player.stop();
+    hand.stop();
     field.layout = (event.target as HTMLInputElement).value as Layout;
     aim();
-    if (shown === "simulated") showExample();
+    if (shown === "simulated") hand.showExample();
     status.write(`${count(field.targets.length, "target")}: ${TASK}.`);
     refresh();
   });
   new ResizeObserver(() => {
     if (!field.fit()) return;
     aim();
-    player.stop();
+    hand.stop();
     refresh();
   }).observe(part("field"));
 
-  showExample();
+  hand.showExample();
   const before = await kept().catch(() => []);
   if (before.length > 0) {
     sessions.add("own", before);
