@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { describe, it } from "node:test";
-import { head, hosted, middles, mouse, open } from "./support.mjs";
+import { head, hosted, middles, mouse, open, REST } from "./support.mjs";
 
 const rect = (page, selector) =>
   page.evaluate((selector) => document.querySelector(selector).getBoundingClientRect().toJSON(), selector);
@@ -70,6 +70,10 @@ describe("the car's screen", () => {
     const last = await shown();
     assert.equal(last.note, "Your last movement");
     assert.match(last.first, /^Weather[89]\d%$/);
+    // a pointer that is elsewhere all at once shows nothing of where it goes
+    await hand.play([[0, 300, 300]]);
+    await hand.rest(REST + 0.1);
+    assert.deepEqual(await shown(), last);
     await close();
   });
 

@@ -87,6 +87,27 @@ describe("ghost", () => {
     });
   }
 
+  it("is shaken by the road, as the visitor is", async () => {
+    const rough = [];
+    for (const amplitude of ["0", "20"]) {
+      const { page, close } = await fresh();
+      await page.locator(".controls summary").click();
+      await page.locator("#amplitude").fill(amplitude);
+      await page.evaluate(() => {
+        scrollTo(0, 0);
+        window.path = [];
+        addEventListener("pointermove", ({ pointerType, clientY }) => pointerType === "ghost" && window.path.push(clientY));
+      });
+      await page.clock.runFor(19_000);
+      const path = await page.evaluate(() => window.path);
+      assert.ok(path.length > 100, `${path.length} events`);
+      const bends = path.slice(2).map((y, index) => Math.abs(y - 2 * path[index + 1] + path[index]));
+      rough.push(bends.reduce((sum, bend) => sum + bend, 0) / bends.length);
+      await close();
+    }
+    assert.ok(rough[1] > 3 * rough[0], `bends of ${rough} px`);
+  });
+
   it("stays away where motion is to be reduced", async () => {
     const { page, visible, close } = await fresh({ reducedMotion: "reduce" });
     await page.clock.runFor(30_000);

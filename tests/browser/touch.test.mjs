@@ -59,6 +59,27 @@ describe("touch", () => {
     await close();
   });
 
+  it("selects where a finger lifts on a road, which shakes it", async () => {
+    const { page, problems, close } = await fresh();
+    await page.locator(".controls summary").click();
+    await page.locator("#amplitude").fill("6");
+    await page.evaluate(() => {
+      scrollTo(0, 0);
+      window.types = new Set();
+      addEventListener("pointermove", ({ pointerType }) => window.types.add(pointerType));
+    });
+    const icons = await middles(page);
+    const [from, to] = ["lights", "messages"].map((id) => icons.find((icon) => icon.id === id));
+    await drag(page, line(from, to, 0.4), async () => {
+      await page.waitForFunction(() => window.types.has("shaken") && !document.querySelector("#hand").hidden);
+    });
+    await page.waitForFunction(() => document.querySelector("#lead").textContent === "Yours, to Messages");
+    assert.equal(await page.locator("#hand").isHidden(), true);
+    assert.equal(await page.evaluate(() => scrollY), 0);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
   it("presses with a tap", async () => {
     const { page, problems, close } = await fresh();
     const { x, y } = (await middles(page)).find((icon) => icon.id === "media");

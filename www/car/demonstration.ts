@@ -40,6 +40,9 @@ const SECONDS = Array.from({ length: 14 }, (_, step) => (1.2 * step) / 13);
 /** The ellipse is that of the arrival, and at least so far ahead (seconds): nearer it would be a dot. */
 const AHEAD = 0.15;
 
+/** Until an icon is as probable as this, a movement shows nothing, and what is shown of the last one stays. */
+const TELLING = 0.1;
+
 /** Milliseconds for which the light stays after a movement, and in which it then fades. */
 const AFTERGLOW = 700;
 const FADE = 400;
@@ -58,6 +61,8 @@ export class Demonstration {
   /** The icons that are ringed, in the order in which their rings closed. */
   readonly #ringed = new Set<Icon>();
   #corner: Point | null = null;
+  /** Whether rows and chart are of the movement under way. */
+  #drawn = false;
   /** The icon whose press by a pointer was judged, until its click. */
   #judged: Icon | null = null;
   /** While the light of a movement that is over stays or fades. */
@@ -177,7 +182,8 @@ export class Demonstration {
     if (!moving) {
       this.#history.end();
       this.#corner = null;
-      probabilityList.rest(simulated ? "The simulated hand’s last" : "Your last movement");
+      probabilityList.rest(this.#drawn ? (simulated ? "The simulated hand’s last" : "Your last movement") : null);
+      this.#drawn = false;
       this.#errands.rested();
       // what is ringed stays lit under a pointer that rests on it
       if (this.#glowing !== null || intended.length > 0) return;
@@ -192,6 +198,10 @@ export class Demonstration {
     this.#history.add({ time: performance.now() / 1000, probabilities });
     this.#corner ??= screen.corner();
     screen.paint(probabilities);
+    this.#describe(simulated);
+    probabilityList.move(none);
+    this.#drawn ||= Math.max(...probabilities) > TELLING;
+    if (!this.#drawn) return;
     probabilityList.paint({ probabilities, none, remaining });
     const leading = ranking(probabilities).slice(0, PATHS);
     const paths = leading.flatMap((index) => {
@@ -202,7 +212,6 @@ export class Demonstration {
     fan.draw({ paths, arrival }, this.#corner);
     chart.draw(this.#history.current, null);
     numbers.movement(simulated);
-    this.#describe(simulated);
   }
 
   /** A ring opens; that of the pressed icon stays as long as its light. */

@@ -18,8 +18,13 @@ import { part, reasonOf } from "../shared/page.ts";
 import { onResolution } from "../shared/resolution.ts";
 import type { Status } from "../shared/status.ts";
 
-/** The movement that is shown before there is another one: across the screen. */
-const EXAMPLE = { from: PLACES.findIndex(({ id }) => id === "fuel"), to: PLACES.findIndex(({ id }) => id === "seats") };
+/** The movement that is shown before there is another one: the first of these that is predicted right, at this size of the screen. */
+const EXAMPLES = [
+  ["fuel", "seats"],
+  ["help", "phone"],
+  ["connections", "phone"],
+  ["navigation", "messages"],
+] as const;
 
 /** Begins, and gives what is to be called where the theme has changed. */
 export async function play(screen: Screen, status: Status): Promise<() => void> {
@@ -68,7 +73,9 @@ export async function play(screen: Screen, status: Status): Promise<() => void> 
   onResolution(restyle);
   new ResizeObserver(() => fan.fit()).observe(part("screen"));
 
-  const example = exampleOf(screen.measure(), labels, EXAMPLE.from, EXAMPLE.to);
+  const at = (id: string) => PLACES.findIndex((place) => place.id === id);
+  const examples = EXAMPLES.map(([from, to]) => exampleOf(screen.measure(), labels, at(from), at(to)));
+  const example = examples.find((each) => each?.press.verdict === "right") ?? examples[0];
   if (example) {
     chart.draw(example.moments, example.press, true);
     probabilityList.example(example.posterior, "An example, until you move");

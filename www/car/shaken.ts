@@ -59,13 +59,13 @@ export function handOn(element: HTMLElement, cursor: Cursor, ride: () => Ride, c
   const listen = (type: string, listener: (event: PointerEvent, contact: boolean) => void) => {
     const heard = (event: Event) => {
       if (event instanceof ObservedEvent || !(event instanceof PointerEvent) || !REAL.includes(event.pointerType)) return;
-      listener(event, deviceOf(ride()).contact);
+      // a real finger is there on the glass alone, whatever it stands for
+      listener(event, deviceOf(ride()).contact || event.pointerType === "touch");
     };
     addEventListener(type, heard, { signal: controller.signal, capture: true });
   };
   listen("pointermove", (event, contact) => {
     if (contact && finger !== event.pointerId) return;
-    if (!contact && event.pointerType === "touch") return;
     if (inside(event) || finger !== null) cursor.show(ride().device);
     else cursor.hide();
     const all = event.getCoalescedEvents();

@@ -9,10 +9,16 @@ export function get(): void {
   const line = part("install");
   const copy = part<HTMLButtonElement>("copy");
   line.textContent = installLine();
-  const { dom, pointing, license } = __WHITHER__;
+  const { dom, pointing, license, repository } = __WHITHER__;
   const kB = (bytes: number) => `${(bytes / 1000).toFixed(1)} kB`;
   part("particulars").textContent =
     `${kB(dom)} with your page, ${kB(pointing)} once a pointer moves, under gzip. ${license.replace(" OR ", " or ")}.`;
+  if (repository) {
+    const source = document.createElement("a");
+    source.href = repository;
+    source.textContent = "Source";
+    part("on-page").append(source);
+  }
   copy.addEventListener("click", () => {
     const named = copy.textContent;
     const answer = (text: string) => {

@@ -41,10 +41,15 @@ export class ProbabilityList {
     parts.rows.append(...this.#rows.map((each) => each.element));
   }
 
-  /** Nothing moves: what is shown stays, faint, until the next movement. */
-  rest(note: string): void {
-    this.#parts.none.style.setProperty("--probability", "1");
-    this.#mark(note);
+  /** The probability of none of them is another one by now; what is shown stays. */
+  move(none: number): void {
+    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
+  }
+
+  /** Nothing moves: what is shown stays, faint, until the next movement; `null`: as it is called already. */
+  rest(note: string | null): void {
+    this.move(1);
+    if (note !== null) this.#mark(note);
   }
 
   /** What it shows before the first movement. */
@@ -63,7 +68,7 @@ export class ProbabilityList {
       write(figure, percent(probability));
       element.style.setProperty("--share", probability.toFixed(4));
     });
-    this.#parts.none.style.setProperty("--probability", none.toFixed(6));
+    this.move(none);
     write(this.#parts.none, percent(none));
     write(this.#parts.remaining, remaining ? seconds(remaining.mean) : "–");
     write(this.#parts.interval, remaining ? `80%: ${remaining.low.toFixed(2)} to ${remaining.high.toFixed(2)} s` : "");
