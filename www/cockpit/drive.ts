@@ -40,6 +40,10 @@ class Follower {
     this.#between = this.value = value;
   }
 
+  put(value: number): void {
+    this.#between = this.value = value;
+  }
+
   step(to: number, seconds: number): void {
     const share = 1 - Math.exp(-seconds / this.#lag);
     this.#between += share * (to - this.#between);
@@ -84,8 +88,8 @@ export class Drive {
   stay(place: Position): void {
     const { x, y } = this.#camera.project(place);
     this.#aim = { x, y };
-    this.#x.value = x;
-    this.#y.value = y;
+    this.#x.put(x);
+    this.#y.put(y);
   }
 
   end(): void {
@@ -97,7 +101,7 @@ export class Drive {
     const { signal } = this.#controller;
     const point = (event: PointerEvent) => {
       const { left, top } = stage.getBoundingClientRect();
-      this.#aim = { x: event.clientX - left, y: event.clientY - top };
+      this.#aim = { x: event.clientX - left - stage.clientLeft, y: event.clientY - top - stage.clientTop };
     };
     stage.addEventListener(
       "pointermove",
@@ -123,7 +127,12 @@ export class Drive {
         const [direction, ahead] = [KEYS[event.key], AHEAD[event.key]];
         if (!direction && ahead === undefined) return;
         event.preventDefault();
-        if (direction) this.#aim = { x: this.#aim.x + STEP * direction[0], y: this.#aim.y + STEP * direction[1] };
+        if (direction) {
+          this.#aim = {
+            x: within(this.#aim.x + STEP * direction[0], 0, stage.clientWidth),
+            y: within(this.#aim.y + STEP * direction[1], 0, stage.clientHeight),
+          };
+        }
         if (ahead !== undefined) this.#ahead(KEY * ahead);
       },
       { signal },
@@ -132,12 +141,16 @@ export class Drive {
   }
 
   #ahead(millimetres: number): void {
-    this.#depth = Math.min(REACH[1][2], Math.max(REACH[0][2], this.#depth - millimetres));
+    this.#depth = within(this.#depth - millimetres, REACH[0][2], REACH[1][2]);
     this.#parts.distance.value = String(this.#depth);
   }
 }
 
 function reachable(place: Position): Position {
-  const at = (axis: 0 | 1 | 2) => Math.min(REACH[1][axis], Math.max(REACH[0][axis], place[axis]));
+  const at = (axis: 0 | 1 | 2) => within(place[axis], REACH[0][axis], REACH[1][axis]);
   return [at(0), at(1), at(2)];
+}
+
+function within(value: number, least: number, most: number): number {
+  return Math.min(most, Math.max(least, value));
 }

@@ -49,6 +49,12 @@ describe("MediaPipe's landmarks", () => {
     assert.deepEqual(tipOfLandmarks(both, PICTURE, 1), tipOfLandmarks(far, PICTURE));
     assert.equal(tipOfLandmarks(near, PICTURE, 1), null);
     assert.equal(tipOfLandmarks({ landmarks: [], worldLandmarks: [] }, PICTURE), null);
+    assert.throws(() => tipOfLandmarks(near, { ...PICTURE, fieldOfView: 180 }), {
+      name: "WhitherError",
+      code: "out-of-range",
+      path: "picture.fieldOfView",
+      message: "picture.fieldOfView: must be between 0 and 180 degrees, got 180",
+    });
   });
 
   it("are placed on the screen by three presses, whatever the field of view was taken for", () => {
@@ -106,6 +112,13 @@ describe("the screen's frame", () => {
     refused([0.3, 1.32, -0.08], "corners: must have a right angle at the first one, got 1 degrees");
     refused(corners[0], "corners: must have a right angle at the first one, got none");
     refused([NaN, 0, 0], "corners: must have a right angle at the first one, got none");
+    const error = {
+      name: "WhitherError",
+      code: "out-of-range",
+      path: "size",
+      message: "size: must be greater than 0, got 240 by 0",
+    };
+    assert.throws(() => screenFrame(corners, { width: 240, height: 0 }), error);
   });
 });
 

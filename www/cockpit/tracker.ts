@@ -36,12 +36,17 @@ const TIP = 8;
  * place; theirs is the one from which they would be where the picture has them, by least squares.
  *
  * @returns null without a hand.
+ * @throws WhitherError `out-of-range` at `picture.fieldOfView`.
  */
 export function tipOfLandmarks({ landmarks, worldLandmarks }: Landmarks, picture: Picture, hand = 0): Position | null {
   const [found, world] = [landmarks[hand], worldLandmarks[hand]];
   const tip = world?.[TIP];
   if (!found || !world || !tip) return null;
-  const focal = picture.width / 2 / Math.tan((picture.fieldOfView * Math.PI) / 360);
+  const { fieldOfView } = picture;
+  if (!(fieldOfView > 0 && fieldOfView < 180)) {
+    throw new WhitherError("out-of-range", "picture.fieldOfView", `must be between 0 and 180 degrees, got ${fieldOfView}`);
+  }
+  const focal = picture.width / 2 / Math.tan((fieldOfView * Math.PI) / 360);
   // from the picture's middle, in focal lengths: (X + tx) = u (Z + tz), (Y + ty) = v (Z + tz)
   const u = found.map(({ x }) => ((x - 0.5) * picture.width) / focal);
   const v = found.map(({ y }) => ((y - 0.5) * picture.height) / focal);
@@ -68,12 +73,15 @@ export function tipOfJoint(pose: { readonly transform: { readonly position: Poin
  *
  * @param corners - The fingertip at each press, in the tracker's own frame and unit.
  * @param size - The width and the height between those corners, in mm.
- * @throws WhitherError `out-of-range` at `corners` where they are none of a rectangle.
+ * @throws WhitherError `out-of-range` at `corners` where they are none of a rectangle, and at `size`.
  */
 export function screenFrame(
   corners: readonly [Position, Position, Position],
   size: { readonly width: number; readonly height: number },
 ): (tip: Position) => Position {
+  if (!(size.width > 0 && size.height > 0)) {
+    throw new WhitherError("out-of-range", "size", `must be greater than 0, got ${size.width} by ${size.height}`);
+  }
   const [origin, upperRight, lowerLeft] = corners;
   const [across, along] = [minus(upperRight, origin), minus(lowerLeft, origin)];
   const [width, height] = [Math.hypot(...across), Math.hypot(...along)];

@@ -1,4 +1,4 @@
-/** The canvas, by WebGL where there is any; and the names of the leading icons over it. */
+/** The canvas, by WebGL where there is any; and the name of the leading icon over it. */
 import { LABELS, TARGETS } from "../cabin.ts";
 import { leader } from "../forecast.ts";
 import { colours } from "../../shared/colours.ts";
@@ -83,8 +83,14 @@ async function viewOn(root: HTMLElement): Promise<View> {
     canvas.remove();
     return new PlainView(canvasOn(root));
   }
-  const { WebglView } = await import("./webgl.ts");
-  return new WebglView(canvas, gl);
+  try {
+    const { WebglView } = await import("./webgl.ts");
+    return new WebglView(canvas, gl);
+  } catch {
+    // a driver that does not take the shaders
+    canvas.remove();
+    return new PlainView(canvasOn(root));
+  }
 }
 
 /** Where the processor does what a graphics card should, a plain canvas is drawn three times as fast. */
