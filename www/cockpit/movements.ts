@@ -28,7 +28,8 @@ export class Movements {
   #icon: number | null = null;
   /** Where and since when it has stayed about there. */
   #rest: { place: Position; since: number } | null = null;
-  #resting = false;
+  /** The first movement begins when the hand first moves. */
+  #resting = true;
 
   get current(): Movement {
     return { moments: this.#moments, touched: this.#touched, icon: this.#icon };
@@ -38,10 +39,11 @@ export class Movements {
   add(seconds: number, hand: Position, tip: Position): void {
     if (this.#touched && hand[2] < OFF) return;
     if (this.#touched) this.#begin();
-    if (!this.#rest || length(minus(hand, this.#rest.place)) > STILL) {
-      if (this.#resting) this.#begin();
+    const from = this.#rest;
+    if (!from || length(minus(hand, from.place)) > STILL) {
+      if (from && this.#resting) this.#begin();
       this.#rest = { place: hand, since: seconds };
-    } else if (seconds - this.#rest.since > REST) {
+    } else if (seconds - from.since > REST) {
       this.#resting = true;
     }
     if (this.#resting) return;

@@ -15,8 +15,9 @@ export interface Course {
   readonly shake: boolean;
 }
 
-/** The shortest time axis, in seconds. */
+/** The shortest time axis, and how far it reaches beyond a movement that is under way; in seconds. */
 const SHORTEST = 0.8;
+const AHEAD = 0.8;
 /** The icon's line is named where it first is as high as this, the other model's where both differ most, and by so much. */
 const CLEAR = 0.4;
 const APART = 0.08;
@@ -43,7 +44,7 @@ export class PosteriorChart {
     const { moments, others, icon } = course;
     const times = moments.map((moment) => moment.sample[0] - this.#start);
     const of = (list: readonly Moment[], index: number) => list.map(({ probabilities }) => probabilities[index] ?? 0);
-    const last = Math.max(SHORTEST, times.at(-1) ?? 0, course.touched ? 0 : this.#expected().high);
+    const last = Math.max(SHORTEST, (times.at(-1) ?? 0) + (course.touched ? 0 : AHEAD));
     this.#lines.draw([times, ...TARGETS.map((_, index) => of(moments, index)), of(others, icon), of(moments, icon)], last);
   }
 

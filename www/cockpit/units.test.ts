@@ -78,7 +78,12 @@ describe("a visitor's movements", () => {
 
   it("begin anew after a rest", () => {
     const movements = new Movements();
-    const hand: Position = [100, 100, 200];
+    const [start, hand]: [Position, Position] = [
+      [80, 100, 220],
+      [100, 100, 200],
+    ];
+    for (let k = 0; k < 5; k += 1) movements.add(k / 50 - 1, start, start);
+    assert.equal(movements.current.moments.shake.length, 0);
     for (let k = 0; k < 60; k += 1) movements.add(k / 50, hand, hand);
     const rested = movements.current.moments.shake.length;
     assert.ok(rested > 25 && rested < 40, `${rested} samples until it rests`);
