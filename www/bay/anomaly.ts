@@ -15,7 +15,7 @@ const PAUSE = 900;
 /** Of the expected speed: less is a stop. */
 const STOPPED = 0.35;
 
-export type Kind = "turned back" | "stopped" | "left its course" | "goes where no harbour is";
+export type Kind = "turned back" | "stopped" | "sped up" | "left its course" | "goes where no harbour is";
 
 /** From this probability of "none of them" on. */
 export const NONE_LIMIT = 0.8;
@@ -50,7 +50,10 @@ export function deviations({ x, y }: Place, forecast: Gaussian): number {
 export function manner({ x, y }: Place, forecast: Gaussian): Kind {
   const [u, v] = [part(forecast, 2), part(forecast, 3)];
   if (Math.hypot(x, y) < STOPPED * Math.hypot(u, v)) return "stopped";
-  return x * u + y * v < 0 ? "turned back" : "left its course";
+  const along = (x * u + y * v) / Math.hypot(u, v);
+  // faster than forecast by more than it is off to the side
+  if (along - Math.hypot(u, v) > Math.abs(x * v - y * u) / Math.hypot(u, v)) return "sped up";
+  return along < 0 ? "turned back" : "left its course";
 }
 
 function part({ mean }: Gaussian, index: number): number {

@@ -11,6 +11,9 @@ const SHORTEST = 3600;
 const CEILING = 14;
 const BANDS = ["band-2", "band-3", "band-4", "band-5"] as const;
 
+/** A name is put at one of so many moments. */
+const STRIDE = 8;
+
 /** A rectangle of the canvas. */
 interface Box {
   readonly left: number;
@@ -78,12 +81,14 @@ function drawBands(
   function name(colour: string, text: string, lower: readonly number[], upper: readonly number[]): void {
     context.font = `500 ${0.75 * rem}px ${family}`;
     const half = context.measureText(text).width / 2 + 0.25 * rem;
+    const last = across(latest?.report.time ?? 0);
+    const xs = moments.map(({ report }) => across(report.time));
+    const rooms = xs.map((_, k) => (upper[k] ?? 0) - (lower[k] ?? 0));
     let best = { k: -1, room: 0 };
-    for (const [k, top] of upper.entries()) {
-      const x = across(moments[k]?.report.time ?? 0);
-      const last = across(latest?.report.time ?? 0);
-      const room = top - (lower[k] ?? 0);
-      if (room > best.room && x - half > box.left && x + half < last) best = { k, room };
+    for (const [k, x] of xs.entries()) {
+      if (k % STRIDE || x - half < box.left || x + half > last) continue;
+      const room = rooms.reduce((least, one, i) => (Math.abs((xs[i] ?? 0) - x) <= half ? Math.min(least, one) : least), 1);
+      if (room > best.room) best = { k, room };
     }
     if (best.room * (box.bottom - box.top) < 1.5 * rem) return;
     context.fillStyle = colour;

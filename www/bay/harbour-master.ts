@@ -1,6 +1,7 @@
 /** Follows a hundred vessels at once, each with a predictor of its own, and keeps the books of the harbours. */
 import { Predictor } from "whither";
 import { AHEAD } from "./anomaly.ts";
+import type { Expected } from "./clock.ts";
 import { HARBOURS } from "./coast.ts";
 import { fleet, type Vessel } from "./fleet.ts";
 import { Lookout, type Moment } from "./lookout.ts";
@@ -12,6 +13,8 @@ export interface Followed extends Vessel {
   readonly half: Half | null;
   /** All its reports were made. */
   readonly arrived: boolean;
+  /** When it will be at its most probable harbour, as computed after some report, the last one or one shortly before. */
+  readonly expected: { readonly of: Moment; readonly at: Expected } | null;
 }
 
 interface Half {
@@ -51,13 +54,21 @@ export class HarbourMaster {
   /** Every report of the day, in the order of time. */
   readonly #reports: readonly { readonly vessel: Mutable; readonly index: number; readonly time: number }[];
   #next = 0;
+  /** Whose expected arrival was brought up to date last. */
+  #turn = 0;
   #now: number;
   /** Reports that were predicted from, and the seconds that took. */
   readonly #work = { reports: 0, seconds: 0 };
 
   constructor() {
     const first = new Predictor(scenario(DEFAULT));
-    this.#all = fleet().map((vessel) => ({ ...vessel, lookout: new Lookout(first.clone(), AHEAD), half: null, arrived: false }));
+    this.#all = fleet().map((vessel) => ({
+      ...vessel,
+      lookout: new Lookout(first.clone(), AHEAD),
+      half: null,
+      arrived: false,
+      expected: null,
+    }));
     first.free();
     this.#reports = this.#all
       .flatMap((vessel) => vessel.reports.map(({ time }, index) => ({ vessel, index, time })))
@@ -108,15 +119,31 @@ export class HarbourMaster {
     return there;
   }
 
-  /** The next arrivals at each harbour, the earliest first. */
+  /**
+   * Brings the expected arrivals up to date, one vessel after the other, for as long as the deadline allows; the next time it goes on
+   * where it was. True where all are up to date.
+   */
+  expect(deadline: number): boolean {
+    for (let turn = 0; turn < this.#all.length; turn += 1) {
+      this.#turn = (this.#turn + 1) % this.#all.length;
+      const vessel = this.#all[this.#turn];
+      const of = vessel?.lookout.latest;
+      if (!vessel || !of || vessel.expected?.of === of || !isListed(vessel)) continue;
+      const at = vessel.lookout.arrivalAt(of.best);
+      vessel.expected = at && { of, at };
+      if (performance.now() > deadline) return false;
+    }
+    return true;
+  }
+
+  /** The next arrivals at each harbour, the earliest first, as they are expected so far. */
   board(): Arrival[][] {
     const boards: Arrival[][] = HARBOURS.map(() => []);
     for (const vessel of this.#all) {
-      const { latest } = vessel.lookout;
-      if (!latest || vessel.arrived) continue;
-      const probability = latest.probabilities[latest.best] ?? 0;
-      const arriving = probability >= LISTED ? vessel.lookout.arrivalAt(latest.best) : null;
-      if (arriving) boards[latest.best]?.push({ vessel, probability, ...arriving });
+      const { lookout, expected } = vessel;
+      const { latest } = lookout;
+      if (!latest || !expected || expected.of.best !== latest.best || !isListed(vessel)) continue;
+      boards[latest.best]?.push({ vessel, probability: latest.probabilities[latest.best] ?? 0, ...expected.at });
     }
     for (const board of boards) board.sort((one, other) => one.median - other.median);
     return boards;
@@ -175,6 +202,11 @@ export class HarbourMaster {
     this.#next = this.#reports.findLastIndex((report) => report.time <= time) + 1;
     this.#now = time;
   }
+}
+
+/** On its way, and more likely than not to one harbour. */
+function isListed({ lookout: { latest }, arrived }: Followed): boolean {
+  return !arrived && latest !== null && (latest.probabilities[latest.best] ?? 0) >= LISTED;
 }
 
 type Mutable = { -readonly [Key in keyof Followed]: Followed[Key] };

@@ -14,6 +14,8 @@ import { percent } from "./words.ts";
 const FIRST_LOOK = 1800;
 /** Milliseconds between two changes of the boards while it plays. */
 const PACE = 250;
+/** Milliseconds of a frame that go into the boards' times. */
+const EXPECT = 3;
 /** A vessel is chosen by a click so many pixels from it, at most. */
 const NEAR = 26;
 /** With so many vessels expected a harbour is fully lit. */
@@ -62,7 +64,8 @@ export class Hundred implements Scene {
   draw(deadline: number): boolean {
     const master = this.#master;
     const there = master.seek(master.begins + this.#playback.place * TICK, deadline);
-    const moving = this.#playback.playing || !there;
+    const expected = master.expect(performance.now() + EXPECT);
+    const moving = this.#playback.playing || !there || !expected;
     this.#followed ??= this.#atSea()[0] ?? null;
     const due = master.due();
     const { traffic } = this.#view;
@@ -95,7 +98,7 @@ export class Hundred implements Scene {
       }),
     );
     this.#keepBooks(due, moving);
-    return there && current;
+    return there && expected && current;
   }
 
   /** Boards and books, at a pace that can be read. */

@@ -107,9 +107,11 @@ describe("the harbour master", () => {
         ...(lookout.latest?.probabilities ?? []),
       ]);
     assert.deepEqual(state(hurried), state(patient));
+    patient.expect(Infinity);
     const board = patient.board().map((lines) => lines.map(({ vessel, median }) => [vessel.name, median]));
     patient.seek(time + 600, Infinity);
     patient.seek(time, Infinity);
+    patient.expect(Infinity);
     assert.deepEqual(state(patient), state(hurried));
     assert.deepEqual(
       patient.board().map((lines) => lines.map(({ vessel, median }) => [vessel.name, median])),
@@ -122,6 +124,8 @@ describe("the harbour master", () => {
   it("lists who is more likely than not at a harbour, earliest first, and expects as many as their probabilities sum to", () => {
     const master = new HarbourMaster();
     master.seek(master.begins + 1800, Infinity);
+    assert.equal(master.board().flat().length, 0);
+    while (!master.expect(0));
     for (const [harbour, lines] of master.board().entries()) {
       for (const [rank, { vessel, probability, median, low, high }] of lines.entries()) {
         assert.ok(probability >= LISTED && low < median && median < high);

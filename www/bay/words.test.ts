@@ -40,6 +40,7 @@ describe("an anomaly", () => {
     assert.equal(manner({ x: 0.5, y: 0 }, forecast), "stopped");
     assert.equal(manner({ x: -5, y: 1 }, forecast), "turned back");
     assert.equal(manner({ x: 1, y: 6 }, forecast), "left its course");
+    assert.equal(manner({ x: 12, y: 1 }, forecast), "sped up");
   });
 
   const finding = (time: number, kind: Kind, error = LIMIT + 1, none = 0): Finding => ({ time, kind, deviations: error, none });
