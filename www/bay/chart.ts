@@ -35,7 +35,7 @@ export class Chart {
     const [land, ...depths] = this.#regions.map((rings) => outline(rings, projection));
     if (!land) return;
     // the shallower, the nearer to the colour of land
-    context.fillStyle = colours["band-5"];
+    context.fillStyle = colours.land;
     context.globalAlpha = 0.3;
     for (const path of depths.slice(0, 3)) context.fill(path, "evenodd");
     context.globalAlpha = 1;
@@ -43,7 +43,7 @@ export class Chart {
     context.lineWidth = 1;
     for (const path of depths) context.stroke(path);
     this.#graticule(paper, projection);
-    context.fillStyle = colours["band-5"];
+    context.fillStyle = colours.land;
     context.fill(land, "evenodd");
     context.strokeStyle = colours.rest;
     context.lineWidth = 1.25;

@@ -9,7 +9,13 @@ import type { Paper } from "./paper.ts";
 const SHORTEST = 3600;
 /** The most deviations that are shown. */
 const CEILING = 14;
-const BANDS = ["band-2", "band-3", "band-4", "band-5"] as const;
+const BANDS = [
+  ["band-1", "on-light"],
+  ["band-2", "on-band"],
+  ["band-3", "on-light"],
+  ["band-4", "on-band"],
+  ["band-5", "on-light"],
+] as const;
 
 /** A name is put at one of so many moments. */
 const STRIDE = 8;
@@ -60,9 +66,10 @@ function drawBands(
     moments.forEach(({ report }, k) => context.lineTo(across(report.time), up(base[k] ?? 0)));
     for (let k = moments.length - 1; k >= 0; k -= 1) context.lineTo(across(moments[k]?.report.time ?? 0), up(lower[k] ?? 0));
     context.closePath();
-    context.fillStyle = rank === 0 ? colours["band-1"] : colours[BANDS[(rank - 1) % BANDS.length] ?? "band-2"];
+    const [band, ink] = BANDS[rank === 0 ? 0 : 1 + ((rank - 1) % (BANDS.length - 1))] ?? BANDS[0];
+    context.fillStyle = colours[band];
     context.fill();
-    name(rank === 0 ? colours["on-light"] : colours["on-band"], HARBOURS[index]?.name ?? "", lower, base);
+    name(colours[ink], HARBOURS[index]?.name ?? "", lower, base);
   }
   if (moments.length > 1)
     name(

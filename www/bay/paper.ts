@@ -16,6 +16,7 @@ const NAMES = [
   "band-3",
   "band-4",
   "band-5",
+  "land",
 ] as const;
 
 export interface Paper {

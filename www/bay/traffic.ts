@@ -112,7 +112,7 @@ export class Traffic {
     context.font = font;
     context.lineJoin = "round";
     context.lineWidth = 3;
-    context.strokeStyle = colours["band-5"];
+    context.strokeStyle = colours.land;
     context.globalAlpha = 0.75;
     context.strokeText(text, x, y);
     context.globalAlpha = 1;
