@@ -50,7 +50,10 @@ export async function open(browser, url, { keeps = false, ...options } = {}, pat
   page.on("request", (request) => {
     if (!request.url().startsWith(url)) problems.push(`request elsewhere: ${request.url()}`);
   });
-  page.on("requestfailed", (request) => problems.push(`request failed: ${request.url()}`));
+  page.on("requestfailed", (request) => {
+    // whoever leaves a page takes back what it has not loaded yet
+    if (request.failure()?.errorText !== "net::ERR_ABORTED") problems.push(`request failed: ${request.url()}`);
+  });
   page.on("response", (response) => {
     if (response.status() >= 400) problems.push(`${response.status()}: ${response.url()}`);
   });
