@@ -197,6 +197,12 @@ describe("the cockpit", () => {
     const over = await shown(page);
     assert.match(over.status, /^Camera is touched; it had been the most probable for 0\.\d\d s\.$/);
     assert.equal(over.remaining, "there");
+    // the ten lines, on the same samples
+    const ran = await page.locator("#ran").textContent();
+    assert.match(
+      ran,
+      new RegExp(`^They ran just now, on the \\d+ samples of this movement: ${over.top.name} ${over.top.percent}\\.$`),
+    );
     await page.waitForFunction((status) => document.querySelector("#announcement").textContent === status, over.status);
     assert.deepEqual(problems, []);
     await close();

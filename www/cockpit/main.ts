@@ -1,14 +1,17 @@
 /** Puts the cockpit together: a hand that is replayed or driven, what is predicted, and the methods compared. */
 import { init } from "whither";
+import { percent } from "../shared/format.ts";
 import { begin, part } from "../shared/page.ts";
 import { PLACES } from "../shared/places.ts";
 import { onResolution } from "../shared/resolution.ts";
 import { showValue } from "../shared/slider.ts";
 import { Status } from "../shared/status.ts";
 import { theme } from "../shared/theme.ts";
+import { LABELS, TARGETS } from "./cabin.ts";
 import { Driven } from "./driven.ts";
 import example from "./example.js?raw";
 import { Experiment } from "./experiment/experiment.ts";
+import type { Moment } from "./forecast.ts";
 import { Panel } from "./panel.ts";
 import { PosteriorChart } from "./posterior.ts";
 import { Replayed } from "./replayed.ts";
@@ -33,6 +36,7 @@ part("listing").textContent = example.trim();
 async function start(): Promise<void> {
   await init();
   await document.fonts.ready;
+  const { whereTo } = await import("./example.js");
   const stage = await Stage.on(part("scene"), trace(PLACES.map(({ icon }) => icon)));
   const panel = new Panel({ rows: part("rows"), none: part("none"), remaining: part("remaining"), interval: part("interval") });
   const posterior = new PosteriorChart(part("posterior"));
@@ -42,6 +46,8 @@ async function start(): Promise<void> {
 
   /** Everything is drawn once a frame, from what is then the case. */
   let frame = 0;
+  /** The movement on which the example ran. */
+  let ran: readonly Moment[] = [];
   const refresh = () => {
     if (frame === 0) frame = requestAnimationFrame(draw);
   };
@@ -58,6 +64,13 @@ async function start(): Promise<void> {
     const words = scene.words(moments);
     status.show(words);
     if (!scene.playing) status.announce(words);
+    if (over && ran !== moments) {
+      ran = moments;
+      const samples = moments.map(({ sample }) => sample);
+      const { index, probability } = whereTo(TARGETS, samples);
+      part("ran").textContent =
+        `They ran just now, on the ${samples.length} samples of this movement: ${LABELS[index]} ${percent(probability)}.`;
+    }
     if (hand === driven) refresh();
   };
   const replayed = new Replayed(

@@ -2,23 +2,24 @@ import assert from "node:assert/strict";
 import { before, describe, it } from "node:test";
 import { init } from "whither";
 import { type Position, TARGETS } from "./cabin.ts";
-import { onHand } from "./example.js";
+import { whereTo } from "./example.js";
 import { follow, leader } from "./forecast.ts";
 import { Movements } from "./movements.ts";
 import { Replay } from "./replay.ts";
 import { leadOf, outcome } from "./sentences.ts";
+import type { Sample } from "./gesture.ts";
 import { spread } from "./spread.ts";
 import { handAt } from "./view/hand.ts";
 
 describe("the ten lines", () => {
   it("run, and know the icon on the way to it", () => {
-    let answer: ReturnType<typeof onHand> | undefined;
-    for (let k = 0; k <= 30; k += 1) {
+    const samples = Array.from({ length: 31 }, (_, k): Sample => {
       const way = 1 - (1 - k / 44) ** 2;
-      answer = onHand(k / 60, [-60 + way * 280, 200 - way * 100, 300 - way * 300]);
-    }
-    assert.equal(answer?.id, "map");
-    assert.ok(answer.probability > 0.6 && (answer.low ?? 0) < (answer.high ?? 0));
+      return [k / 60, -60 + way * 280, 200 - way * 100, 300 - way * 300];
+    });
+    const answer = whereTo(TARGETS, samples);
+    assert.equal(answer.id, "settings");
+    assert.ok(answer.probability > 0.5 && (answer.low ?? 0) < (answer.high ?? 0), JSON.stringify(answer));
   });
 });
 
