@@ -20,7 +20,7 @@ const KEYS: Readonly<Record<string, readonly [right: number, down: number]>> = {
   ArrowUp: [0, -1],
   ArrowDown: [0, 1],
 };
-const AHEAD: Readonly<Record<string, number>> = { PageUp: 1, "+": 1, w: 1, PageDown: -1, "-": -1, s: -1 };
+const AHEAD: Readonly<Record<string, number>> = { PageUp: 1, "+": 1, PageDown: -1, "-": -1 };
 
 export interface DriveParts {
   readonly stage: HTMLElement;

@@ -80,6 +80,7 @@ export class Driven {
       moments,
       at: moments.shake.length - 1,
       touched,
+      hit: icon,
       icon: icon ?? (last ? leader(last).icon : 0),
       playing: !touched,
       words: (moments) => {

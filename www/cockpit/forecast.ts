@@ -6,7 +6,7 @@ import { handModel } from "./models.ts";
 import { ranking } from "../shared/ranking.ts";
 
 /** Icons whose paths are drawn. */
-export const LEADING = 3;
+const LEADING = 3;
 /** Points of a path, after the hand. */
 const PATH = 16;
 

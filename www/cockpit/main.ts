@@ -58,7 +58,7 @@ async function start(): Promise<void> {
     const [moments, others] = shake ? [scene.moments.shake, scene.moments.calm] : [scene.moments.calm, scene.moments.shake];
     const moment = moments[scene.at] ?? null;
     const over = scene.touched && scene.at >= moments.length - 1;
-    stage.draw({ trail: scene.trail, moment, touched: over ? scene.icon : null });
+    stage.draw({ trail: scene.trail, moment, touched: over ? scene.hit : null });
     panel.show(moment, over);
     posterior.draw({ ...scene, moments, others, shake });
     const words = scene.words(moments);

@@ -4,7 +4,7 @@ import { ICON, TARGETS } from "./cabin.ts";
 import { TRACKED } from "./gesture.ts";
 
 /** The largest amplitude of the road that is expected, in mm, where any is. */
-export const SHAKE = 20;
+const SHAKE = 20;
 /** The prior probability that none of the icons is meant: about that of one icon more. */
 const NONE = 0.05;
 

@@ -89,6 +89,7 @@ export class Replayed {
       moments,
       at,
       touched: true,
+      hit: gesture.target,
       icon: gesture.target,
       playing: this.#playback.playing || this.#touring,
       words: (moments) => {

@@ -21,8 +21,8 @@ export interface Picture {
   readonly touched: number | null;
 }
 
-/** An icon as probable as this has a ring around it, as on the car's screen. */
-export const RINGED = 0.8;
+/** An icon as probable as this has a ring around it. */
+const RINGED = 0.8;
 /** The side of a glyph, in mm. */
 const GLYPH = 14;
 const CIRCLE = 40;
