@@ -55,7 +55,6 @@ export class Hundred implements Scene {
   enter(): void {
     this.#view.forget();
     this.#boards = 0;
-    part("vessel").hidden = true;
   }
 
   /** The hundred are followed by the default model. */

@@ -15,6 +15,8 @@ import { View } from "./view.ts";
 
 /** Milliseconds of a frame that go into predictions. */
 const BUDGET = 8;
+/** Milliseconds of a frame. */
+const FRAME = 17;
 
 const status = new Status(part("status"), part("announcement"));
 part("listing").textContent = example.trim();
@@ -54,16 +56,28 @@ async function start(): Promise<void> {
     playback.change({ last: next.last });
     playback.set(places.get(next) ?? next.firstLook);
     next.enter();
-    const fleet = next !== one;
+    if (!calm) playback.play();
+  };
+  /** What the page consists of. */
+  const arrange = (fleet: boolean) => {
     document.documentElement.dataset["mode"] = fleet ? "fleet" : "one";
     part("one").setAttribute("aria-pressed", String(!fleet));
     part("hundred").setAttribute("aria-pressed", String(fleet));
-    for (const id of ["voyage-choice", "helm-help", "controls"]) part(id).hidden = fleet;
+    for (const id of ["vessel", "voyage-choice", "helm-help", "controls"]) part(id).hidden = fleet;
     for (const id of ["fleet-help", "master"]) part(id).hidden = !fleet;
-    if (!calm) playback.play();
   };
-  part("one").addEventListener("click", () => show(one));
-  part("hundred").addEventListener("click", () => show((hundred ??= new Hundred(view, playback))));
+  part("one").addEventListener("click", () => {
+    arrange(false);
+    show(one);
+  });
+  part("hundred").addEventListener("click", () => {
+    arrange(true);
+    // a hundred voyages are simulated once this is painted
+    setTimeout(() => {
+      hundred ??= new Hundred(view, playback);
+      if (document.documentElement.dataset["mode"] === "fleet") show(hundred);
+    }, 2 * FRAME);
+  });
   speed.addEventListener("change", () => playback.change({ pace: pace() }));
   new Controls(part<HTMLFormElement>("model"), (settings) => one.set(settings));
 
@@ -75,6 +89,7 @@ async function start(): Promise<void> {
   new ResizeObserver(fit).observe(part("chart"));
   onResolution(fit);
   view.fit();
+  arrange(false);
   show(one);
   draw();
 }

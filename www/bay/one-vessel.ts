@@ -65,7 +65,6 @@ export class OneVessel implements Scene {
 
   enter(): void {
     this.#view.forget();
-    this.#vessel.hidden = false;
   }
 
   set(settings: Settings): void {
