@@ -341,6 +341,7 @@ describe("the bay", () => {
   it("follows a hundred vessels at once: boards in order, books kept", async (test) => {
     const { page, problems, close } = await opened();
     await page.locator("#hundred").click();
+    await settled(page);
     const at = async (share) => {
       await scrub(page, share);
       return page.evaluate(() => ({
@@ -393,6 +394,7 @@ describe("the bay", () => {
   it("follows the vessel of the hundred that is clicked on the chart", async () => {
     const { page, problems, close } = await opened();
     await page.locator("#hundred").click();
+    await settled(page);
     await page.waitForFunction(() => document.querySelector("#at-sea").textContent.startsWith("100"));
     const before = (await shown(page)).status.split(",")[0];
     const { x, y, width, height } = await page.locator("#chart").boundingBox();

@@ -72,6 +72,7 @@ async function start(): Promise<void> {
   });
   part("hundred").addEventListener("click", () => {
     arrange(true);
+    part("chart").setAttribute("aria-busy", "true");
     // a hundred voyages are simulated once this is painted
     setTimeout(() => {
       hundred ??= new Hundred(view, playback);
