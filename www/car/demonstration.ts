@@ -41,7 +41,7 @@ const SECONDS = Array.from({ length: 14 }, (_, step) => (1.2 * step) / 13);
 const AHEAD = 0.15;
 
 /** Until an icon is as probable as this, a movement shows nothing, and what is shown of the last one stays. */
-const TELLING = 0.1;
+const NOTICEABLE = 0.1;
 
 /** Milliseconds for which the light stays after a movement, and in which it then fades. */
 const AFTERGLOW = 700;
@@ -200,7 +200,7 @@ export class Demonstration {
     screen.paint(probabilities);
     this.#describe(simulated);
     probabilityList.move(none);
-    this.#drawn ||= Math.max(...probabilities) > TELLING;
+    this.#drawn ||= Math.max(...probabilities) > NOTICEABLE;
     if (!this.#drawn) return;
     probabilityList.paint({ probabilities, none, remaining });
     const leading = ranking(probabilities).slice(0, PATHS);

@@ -46,7 +46,7 @@ export class Errands {
     return this.#active;
   }
 
-  /** What the page has to say of it now; null where that is nothing. */
+  /** The sentence of it now; null where there is none. */
   get sentence(): string | null {
     if (!this.#active) return null;
     if (this.#report !== null) return this.#report;

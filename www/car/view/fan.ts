@@ -78,7 +78,7 @@ export class Fan {
   }
 }
 
-/** A path longer than its ends are apart by this factor turns back: its icon has been passed. */
+/** A path longer by this factor than its first and last places are apart turns back: its icon has been passed. */
 const DETOUR = 1.5;
 
 /** Whether a path is a hook, to an icon that the movement has passed. */

@@ -23,7 +23,7 @@ export interface ProbabilityListParts {
   readonly none: HTMLElement;
   readonly remaining: HTMLElement;
   readonly interval: HTMLElement;
-  /** What holds all of it, and the words that say what it is where it is not of now. */
+  /** What holds all of it, and the words for what it is where it is not of now. */
   readonly root: HTMLElement;
   readonly note: HTMLElement;
 }
