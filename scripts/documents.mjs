@@ -26,6 +26,7 @@ export const GROUPS = {
   },
   "What was measured": {
     accuracy: "In one page",
+    comparing: "Compare predictors on your data",
     pointing: "The pointing model",
     performance: "What it costs",
     papers: "The papers, errata, patents",

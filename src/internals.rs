@@ -22,7 +22,7 @@ use crate::scenario::{Scenario, Setup};
 use crate::snapshot::Snapshot;
 #[cfg(feature = "fit")]
 use crate::study::fit::{self, Fitted, Options, Progress};
-use crate::study::track::Track;
+use crate::study::track::{Target, Track};
 
 /// A scenario from data.
 ///
@@ -50,6 +50,28 @@ pub const fn snapshot(value: Value) -> Snapshot {
 /// Those of the scenario.
 pub fn track_scenario(track: &Track, template: &Value, extra: &Value) -> Result<Scenario> {
     track.scenario_of(template, extra)
+}
+
+/// A track from data, of one dimension too, each of its targets read by `target` from the data and the number of dimensions.
+///
+/// # Errors
+/// Those of reading and of `target`.
+pub fn track(value: &Value, target: &mut dyn FnMut(&Node<'_>, usize) -> Result<Target>) -> Result<Track> {
+    Track::read_with(&Node::root(value, ""), 1..=3, target)
+}
+
+/// A track's target from data: `[x, width]`, `[x, y, width, height]` or `[x, y, z, diameter]`.
+///
+/// # Errors
+/// `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`.
+pub fn track_target(node: &Node<'_>, dimensions: usize) -> Result<Target> {
+    Target::read(node, dimensions)
+}
+
+/// [`Track::approach`] to a target that holds the positions for which `contains` is true.
+#[must_use]
+pub fn approach_to(track: &Track, contains: &dyn Fn(&[f64]) -> bool) -> Option<usize> {
+    track.approach_to(contains)
 }
 
 /// [`fit`](fit::fit) with a template as data, each destination with the keys of `extra`, an object or nothing.

@@ -5,6 +5,7 @@ use crate::predictor::Predictor;
 use crate::scenario::Scenario;
 use crate::value::{Node, Value, number};
 use serde::{Deserialize, Deserializer};
+use std::ops::RangeInclusive;
 
 /// One recorded movement towards one of several targets.
 ///
@@ -106,12 +107,24 @@ impl Track {
     /// `unknown-key`, `missing-key`, `wrong-type`, `wrong-length`, `not-finite`; `out-of-range` for a target that is not in
     /// the list, a size that is not above 0 and an empty list; `time-not-increasing` where the time runs back.
     pub(crate) fn read(node: &Node<'_>) -> Result<Self> {
+        Self::read_with(node, 2..=3, &mut Target::read)
+    }
+
+    /// The same with so many dimensions, and each target read by `target` from its data and their number.
+    ///
+    /// # Errors
+    /// As [`Track::read`], and those of `target`.
+    pub(crate) fn read_with(
+        node: &Node<'_>,
+        dimensions: RangeInclusive<usize>,
+        target: &mut dyn FnMut(&Node<'_>, usize) -> Result<Target>,
+    ) -> Result<Self> {
         let fields = node.fields(&["id", "user", "targets", "target", "samples"])?;
         let text = |key: &'static str| fields.optional(key).map_or(Ok(String::new()), |node| name(&node));
-        let samples = read_samples(&fields.required("samples")?)?;
+        let samples = read_samples(&fields.required("samples")?, &dimensions)?;
         let dimensions = samples[0].position.len();
         let list = fields.required("targets")?;
-        let targets = list.items()?.map(|item| Target::read(&item, dimensions)).collect::<Result<Vec<_>>>()?;
+        let targets = list.items()?.map(|item| target(&item, dimensions)).collect::<Result<Vec<_>>>()?;
         if targets.is_empty() {
             return Err(list.error(Code::OutOfRange, "must have at least one target"));
         }
@@ -136,10 +149,15 @@ impl Track {
     #[must_use]
     pub fn approach(&self) -> Option<usize> {
         let target = &self.targets[self.target];
+        self.approach_to(&|position| target.contains(position))
+    }
+
+    /// The same for a target that holds the positions for which `contains` is true.
+    pub(crate) fn approach_to(&self, contains: &dyn Fn(&[f64]) -> bool) -> Option<usize> {
         let mut entry = None;
         let mut inside = false;
         for (k, sample) in self.samples.iter().enumerate().filter(|(_, sample)| sample.missing.is_empty()) {
-            let now = target.contains(&sample.position);
+            let now = contains(&sample.position);
             if now && !inside {
                 entry = Some(k);
             }
@@ -202,11 +220,11 @@ fn name(node: &Node<'_>) -> Result<String> {
 }
 
 /// All samples, at least one; coordinates that are missing repeat their neighbours.
-fn read_samples(list: &Node<'_>) -> Result<Vec<Sample>> {
+fn read_samples(list: &Node<'_>, dimensions: &RangeInclusive<usize>) -> Result<Vec<Sample>> {
     let mut samples: Vec<Sample> = Vec::with_capacity(list.items()?.len());
     for item in list.items()? {
         let sample = read_sample(&item)?;
-        check_sample(&sample, samples.last(), &item)?;
+        check_sample(&sample, samples.last(), dimensions, &item)?;
         samples.push(sample);
     }
     let Some(first) = samples.first() else {
@@ -242,13 +260,18 @@ fn read_sample(item: &Node<'_>) -> Result<Sample> {
     Ok(Sample { time, position: numbers.split_off(1.min(numbers.len())), missing })
 }
 
-fn check_sample(sample: &Sample, last: Option<&Sample>, item: &Node<'_>) -> Result<()> {
-    let dimensions = sample.position.len();
-    if !(2..=3).contains(&dimensions) {
-        return Err(item.error(Code::WrongLength, "must be [t, x, y] or [t, x, y, z]"));
+fn check_sample(
+    sample: &Sample,
+    last: Option<&Sample>,
+    dimensions: &RangeInclusive<usize>,
+    item: &Node<'_>,
+) -> Result<()> {
+    if !dimensions.contains(&sample.position.len()) {
+        let one = if dimensions.contains(&1) { "[t, x], " } else { "" };
+        return Err(item.error(Code::WrongLength, &format!("must be {one}[t, x, y] or [t, x, y, z]")));
     }
     let Some(last) = last else { return Ok(()) };
-    if last.position.len() != dimensions {
+    if last.position.len() != sample.position.len() {
         return Err(item.error(Code::WrongLength, "must have as many numbers as the sample before"));
     }
     if sample.time < last.time {
@@ -259,8 +282,12 @@ fn check_sample(sample: &Sample, last: Option<&Sample>, item: &Node<'_>) -> Resu
 }
 
 impl Target {
-    fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
-        let numbers = node.vector(Some(4))?;
+    /// Reads `[x, width]`, `[x, y, width, height]` or `[x, y, z, diameter]`.
+    ///
+    /// # Errors
+    /// `wrong-type`, `wrong-length`, `not-finite`, `out-of-range`.
+    pub(crate) fn read(node: &Node<'_>, dimensions: usize) -> Result<Self> {
+        let numbers = node.vector(Some(if dimensions == 1 { 2 } else { 4 }))?;
         let (center, size) = numbers.split_at(dimensions);
         if size.iter().any(|side| *side <= 0.0) {
             return Err(node.error(Code::OutOfRange, "must have sizes above 0"));

@@ -1,7 +1,8 @@
 //! Scores predictors on recorded movements, side by side: `npm run evaluate -- FILE...`.
 //!
 //! A file has one track a line, `{"id", "user", "targets": [[x, y, w, h], ...], "target": k, "samples": [[t, x, y], ...]}`
-//! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`; null for a coordinate that is missing.
+//! with the centres of the targets; in space `[x, y, z, diameter]` and `[t, x, y, z]`, along a line `[x, w]` and `[t, x]`; null for a
+//! coordinate that is missing; a target may be a Gaussian endpoint, `{"mean", "covariance"}`.
 //! What is printed, on the approach up to the last entry into the true target: the share of the time with the true target on
 //! top, accuracy on the way, mean log loss, expected calibration error, lead time; with an interval by drawing users.
 
@@ -9,6 +10,7 @@ mod chart;
 mod crossings;
 mod extras;
 mod foresight;
+mod grid;
 mod habits;
 mod intents;
 mod learning;
@@ -18,8 +20,10 @@ mod on_a_map;
 mod outcomes;
 mod peers;
 mod reading;
+mod recorded;
 mod report;
 mod shake;
+mod steps;
 mod streams;
 mod sweep;
 mod variants;
@@ -28,25 +32,58 @@ use clap::Parser;
 use crossings::Crossings;
 use extras::{Extras, Sums};
 use foresight::Foresight;
+use grid::{Grid, LeftOut};
 use methods::{Method, Template};
 use outcomes::Gains;
 use peers::Peer;
+use recorded::Recorded;
 use report::{Results, Set};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use steps::Step;
 use variants::Variant;
 use whither::Learnt;
 use whither::study::metrics::Score;
 
 /// Options of the usual tables only.
-const OF_SCORES: [&str; 9] =
-    ["scenario", "more", "learning", "thresholds", "ours", "users", "margin", "every", "charts"];
+const OF_SCORES: [&str; 14] = [
+    "scenario",
+    "methods",
+    "points",
+    "noise",
+    "arrival",
+    "steps",
+    "more",
+    "learning",
+    "thresholds",
+    "ours",
+    "users",
+    "margin",
+    "every",
+    "charts",
+];
 
 /// Options and tables that have nothing to do with intents.
-const NOT_OF_INTENTS: [&str; 11] =
-    ["scenario", "more", "learning", "thresholds", "ours", "margin", "every", "charts", "sweep", "fit", "habits"];
+const NOT_OF_INTENTS: [&str; 16] = [
+    "scenario",
+    "methods",
+    "points",
+    "noise",
+    "arrival",
+    "steps",
+    "more",
+    "learning",
+    "thresholds",
+    "ours",
+    "margin",
+    "every",
+    "charts",
+    "sweep",
+    "fit",
+    "habits",
+];
 
 /// The error where nothing was scored.
 const NOTHING: &str = "nothing to score: too few tracks enter their target";
@@ -56,7 +93,9 @@ const NOTHING: &str = "nothing to score: too few tracks enter their target";
 #[command(name = "npm run evaluate --")]
 struct Arguments {
     /// Files of tracks, one JSON object a line: {"id"?, "user"?, "targets": [[x, y, width, height], ...] about their centres,
-    /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z]. A coordinate that is missing is null.
+    /// "target": k, "samples": [[t, x, y], ...]}; in space [x, y, z, diameter] and [t, x, y, z], along a line [x, width] and [t, x]. A
+    /// coordinate that is missing is null. A target may be a Gaussian endpoint, {"mean": [...], "covariance": [[...], ...]}, of the position
+    /// or of position and velocity; it is entered at its ellipse of 95%.
     #[arg(required_unless_present = "habits")]
     files: Vec<PathBuf>,
     /// Files of scenarios of your own, {"name", "scenario", "destination"?, "margin"?, "toTheEnd"?, "map"?}: the scenario without its
@@ -66,6 +105,14 @@ struct Arguments {
     /// name as a track file, it is used.
     #[arg(long)]
     scenario: Vec<PathBuf>,
+    #[command(flatten)]
+    grid_of_methods: Grid,
+    /// Where to write what our scenarios predict after each sample that is scored, as CSV, one row for each track, method and sample: file,
+    /// line, id, user, method, step, time, target, top, none, log_likelihood, log_evidence, arrival, arrival_deviation, remaining, x, y, z,
+    /// vx, vy, vz, and p0, p1, ... for the targets in their order; a field is empty where there is nothing. docs/comparing.md has what
+    /// they are.
+    #[arg(long, value_name = "FILE.csv")]
+    steps: Option<PathBuf>,
     /// Score the first of our scenarios on two more things: the time to the entry, and "none of them" with the target taken out of
     /// half of the tracks.
     #[arg(long)]
@@ -190,9 +237,13 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let mut more = arguments.more.then(BTreeMap::new);
     let mut crossings = arguments.thresholds.then(Crossings::new);
     let mut gains = arguments.learning.then(Gains::new);
+    let mut left_out = LeftOut::new();
+    let mut steps = arguments.steps.as_deref().map(|path| begin_steps(arguments, path)).transpose()?;
     for file in &arguments.files {
-        let methods = methods_for(arguments, file)?;
-        skipped += evaluate(arguments, file, &methods, &mut results, (more.as_mut(), crossings.as_mut()))?;
+        let methods = methods_for(arguments, file, &mut left_out)?;
+        let into =
+            Into { results: &mut results, more: more.as_mut(), crossings: crossings.as_mut(), steps: steps.as_mut() };
+        skipped += evaluate(arguments, file, &methods, into)?;
         if let Some(gains) = &mut gains {
             let template = template_for(file)?;
             let margin = arguments.margin.unwrap_or(template.margin);
@@ -203,6 +254,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return Err(NOTHING.to_owned());
     }
     results.print(arguments.users);
+    if let Some(line) = grid::left_out(&left_out) {
+        println!("\n{line}");
+    }
     let extras = more.map(|sums| extras::report(sums.iter().map(|(set, sums)| (set.clone(), sums))));
     let gains = gains.map(|gains| outcomes::report(&gains, arguments.more));
     let crossings = crossings.map(|crossings| crossings::report(&crossings));
@@ -210,6 +264,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     results.write(&arguments.json, [extras, gains, crossings])?;
     let charts = chart::write_all(&results, &arguments.charts)?;
     println!("report: {}   charts: {}", arguments.json.display(), charts.join(", "));
+    if let Some(steps) = steps {
+        println!("steps: {}", steps.finish()?);
+    }
     Ok(())
 }
 
@@ -239,20 +296,33 @@ fn print_skipped(lines: usize) {
     }
 }
 
-/// A file's own scenario, else the pointer's.
-fn template_for(file: &Path) -> Result<Template, String> {
-    Template::of(file)?.map_or_else(Template::pointer, Ok)
+/// A file's own scenarios; without one the pointer's two, in the dimensions of its tracks.
+fn templates_for(file: &Path) -> Result<Vec<Template>, String> {
+    if let Some(own) = Template::of(file)? {
+        return Ok(vec![own]);
+    }
+    let dimensions = reading::dimensions(file)?.unwrap_or(2);
+    let templates = [Template::pointer()?, Template::constant_velocity()?];
+    Ok(templates.map(|template| template.in_dimensions(dimensions)).into())
 }
 
-/// The methods for one file: its own scenario where there is one, else the pointer's; then those of `--scenario`; then peers.
-fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String> {
-    let mut methods = match Template::of(file)? {
-        Some(own) => vec![Method::ours(own)],
-        None => vec![Method::ours(Template::pointer()?), Method::ours(Template::constant_velocity()?)],
+/// A file's own scenario, else the pointer's.
+fn template_for(file: &Path) -> Result<Template, String> {
+    Ok(templates_for(file)?.swap_remove(0))
+}
+
+/// The methods for one file: its own scenarios, then those of `--scenario`, or a grid of methods in their place; then peers.
+fn methods_for(arguments: &Arguments, file: &Path, left_out: &mut LeftOut) -> Result<Vec<Method>, String> {
+    let given = arguments.scenario.iter().map(|path| Template::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let templates = if arguments.grid_of_methods.is_given() {
+        let bases = if given.is_empty() { templates_for(file)? } else { given };
+        let rows = arguments.grid_of_methods.rows(&bases)?;
+        left_out.extend(rows.left_out);
+        rows.templates
+    } else {
+        [templates_for(file)?, given].concat()
     };
-    for path in &arguments.scenario {
-        methods.push(Method::ours(Template::read(path)?));
-    }
+    let mut methods: Vec<Method> = templates.into_iter().map(Method::ours).collect();
     if !arguments.ours {
         methods.extend(Peer::all().into_iter().map(Method::peer));
         match Foresight::start() {
@@ -263,36 +333,63 @@ fn methods_for(arguments: &Arguments, file: &Path) -> Result<Vec<Method>, String
     Ok(methods)
 }
 
-fn evaluate(
-    arguments: &Arguments,
-    file: &Path,
-    methods: &[Method],
-    results: &mut Results,
-    (mut more, mut crossings): (Option<&mut BTreeMap<String, Sums>>, Option<&mut Crossings>),
-) -> Result<usize, String> {
+/// The file of `--steps`, with columns for the most targets that any track has.
+fn begin_steps(arguments: &Arguments, path: &Path) -> Result<steps::Table, String> {
+    let counts = arguments.files.iter().map(|file| reading::most_targets(file)).collect::<Result<Vec<_>, _>>()?;
+    let most = counts.into_iter().max().unwrap_or(0);
+    steps::Table::create(path, if arguments.around.is_some() { variants::AROUND } else { most })
+}
+
+/// Where the results of a file go.
+struct Into<'a> {
+    results: &'a mut Results,
+    more: Option<&'a mut BTreeMap<String, Sums>>,
+    crossings: Option<&'a mut Crossings>,
+    steps: Option<&'a mut steps::Table>,
+}
+
+fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], mut into: Into<'_>) -> Result<usize, String> {
     let name = reading::name(file);
     let mut sets: Vec<Set> = Vec::new();
     let template = template_for(file)?;
     let margin = arguments.margin.unwrap_or(template.margin);
-    let also = [more.is_some(), crossings.is_some()].map(|wanted| wanted.then_some(&template));
+    let also = [into.more.is_some(), into.crossings.is_some()].map(|wanted| wanted.then_some(&template));
+    let mut failed = None;
     let skipped = reading::each(
         file,
         |line| score(line, (margin, arguments, template.to_the_end), methods, also),
-        |(part, user, scores, extras, crossing)| {
-            report::add(&mut sets, &name, part, methods, &user, &scores);
-            if let (Some(sums), Some(extras)) = (more.as_deref_mut(), extras) {
+        |scored| {
+            let (part, user) = (reading::part(&scored.track), &scored.track.user);
+            report::add(&mut sets, &name, part, methods, user, &scored.scores);
+            if let (Some(sums), Some(extras)) = (into.more.as_deref_mut(), scored.extras) {
                 sums.entry(format!("{name}{part}")).or_default().add(&extras);
             }
-            if let (Some(crossings), Some(crossing)) = (crossings.as_deref_mut(), crossing) {
-                crossings.entry(format!("{name}{part}")).or_default().entry(user).or_default().add(&crossing);
+            if let (Some(crossings), Some(crossing)) = (into.crossings.as_deref_mut(), scored.crossing) {
+                crossings.entry(format!("{name}{part}")).or_default().entry(user.clone()).or_default().add(&crossing);
+            }
+            if let Some(table) = into.steps.as_deref_mut() {
+                for (method, steps) in methods.iter().zip(&scored.steps) {
+                    if failed.is_none() {
+                        failed = table.add(file, scored.line, &scored.track, &method.name, steps).err();
+                    }
+                }
             }
         },
     )?;
-    results.sets.extend(sets);
-    Ok(skipped)
+    into.results.sets.extend(sets);
+    failed.map_or(Ok(skipped), Err)
 }
 
-type Scored = (&'static str, String, Vec<Option<Score>>, Option<Extras>, Option<crossings::Sums>);
+/// The results of one track.
+struct Scored {
+    line: usize,
+    track: Recorded,
+    /// One for each method, as the steps.
+    scores: Vec<Option<Score>>,
+    steps: Vec<Vec<Step>>,
+    extras: Option<Extras>,
+    crossing: Option<crossings::Sums>,
+}
 
 fn score(
     line: &reading::Line,
@@ -300,21 +397,23 @@ fn score(
     methods: &[Method],
     [more, thresholds]: [Option<&Template>; 2],
 ) -> Result<Option<Scored>, String> {
-    let (mut recorded, every) = (line.track(margin)?, arguments.every);
+    let (mut recorded, every) = (line.recorded(margin)?, arguments.every);
     if let Some([low, high]) = arguments.around.as_deref() {
-        let Some((other, _)) = Variant::Around([*low, *high]).of(&recorded, line.number as u64) else {
+        let boxes = recorded.boxes()?;
+        let Some((other, _)) = Variant::Around([*low, *high]).of(boxes, line.number as u64) else {
             return Ok(None);
         };
-        recorded = other;
+        recorded = other.into();
     }
-    let variant =
-        if to_the_end && recorded.approach().is_none() { Variant::Complete(every) } else { Variant::Every(every) };
-    let Some((track, approach)) = variant.of(&recorded, 0) else { return Ok(None) };
-    let scores = methods.iter().map(|method| method.score(&track, approach)).collect::<Result<Vec<_>, _>>()?;
-    let extras =
-        more.map(|template| extras::run(template, &track, approach, line.number, &Learnt::default())).transpose()?;
-    let crossing = thresholds.map(|template| crossings::run(template, &recorded, every)).transpose()?.flatten();
-    Ok(Some((reading::part(&track), track.user, scores, extras, crossing)))
+    let Some((track, approach)) = recorded.every(every, to_the_end) else { return Ok(None) };
+    let score = |method: &Method| method.score(&track, approach, arguments.steps.is_some());
+    let scores = methods.iter().map(score).collect::<Result<Vec<_>, _>>()?;
+    let (scores, steps) = scores.into_iter().map(Option::unzip).unzip::<_, _, Vec<_>, Vec<_>>();
+    let steps = steps.into_iter().map(Option::unwrap_or_default).collect();
+    let extras = more.map(|template| extras::run(template, track.boxes()?, approach, line.number, &Learnt::default()));
+    let crossing = thresholds.map(|template| crossings::run(template, recorded.boxes()?, every));
+    let (extras, crossing) = (extras.transpose()?, crossing.transpose()?.flatten());
+    Ok(Some(Scored { line: line.number, track, scores, steps, extras, crossing }))
 }
 
 #[cfg(test)]

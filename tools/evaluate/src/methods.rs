@@ -3,9 +3,11 @@
 use crate::foresight::Foresight;
 use crate::on_a_map;
 use crate::peers::Peer;
+use crate::recorded::Recorded;
+use crate::steps::{self, Step};
 use std::borrow::Cow;
 use std::path::Path;
-use whither::internals::{Node, Value, data, track_scenario};
+use whither::internals::{Node, Value, data};
 use whither::study::metrics::{Prediction, Score};
 use whither::study::track::Track;
 use whither::{HandOptions, HandTarget, PointerOptions, PointerTarget, RayOptions, RayTarget};
@@ -27,9 +29,9 @@ enum Rule {
 }
 
 /// A scenario file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Template {
-    name: String,
+    pub name: String,
     /// The scenario without its destinations.
     pub scenario: Value,
     /// Keys that each destination gets.
@@ -88,15 +90,50 @@ impl Template {
         Self::parse(r#"{ "name": "whither, pointing model", "scenario": "pointerScenario" }"#)
     }
 
+    /// The same in so many dimensions.
+    pub fn in_dimensions(mut self, dimensions: usize) -> Self {
+        set(&mut self.scenario, &["motion", "dimensions"], Value::Number(dimensions as f64));
+        self
+    }
+
+    /// Whether the method has a likelihood, and not only something in proportion to one.
+    fn has_likelihood(&self) -> bool {
+        let root = Node::root(&self.scenario, "");
+        let method = root.get("method").and_then(|method| method.text().ok());
+        !matches!(method, Some("pointing" | "singleFilterApproximate"))
+    }
+
     /// The track as this scenario has it.
     pub fn coordinates<'a>(&self, track: &'a Track) -> Result<Cow<'a, Track>, String> {
         if self.map { on_a_map::track(track).map(Cow::Owned) } else { Ok(Cow::Borrowed(track)) }
+    }
+
+    /// What was recorded as this scenario has it.
+    fn recorded<'a>(&self, recorded: &'a Recorded) -> Result<Cow<'a, Recorded>, String> {
+        if self.map { recorded.try_map(on_a_map::track).map(Cow::Owned) } else { Ok(Cow::Borrowed(recorded)) }
     }
 
     /// The papers' exact method with constant velocity, as a pointer's user would set it.
     pub fn constant_velocity() -> Result<Self, String> {
         Self::parse(include_str!("../scenarios/constant_velocity.json"))
     }
+}
+
+/// Puts a value at a path of an object, and the objects that it lies in.
+pub fn set(place: &mut Value, path: &[&str], new: Value) {
+    let [key, rest @ ..] = path else {
+        *place = new;
+        return;
+    };
+    if !matches!(place, Value::Map(_)) {
+        *place = Value::Map(Vec::new());
+    }
+    let Value::Map(entries) = place else { return };
+    let at = entries.iter().position(|(name, _)| **name == **key).unwrap_or_else(|| {
+        entries.push(((*key).into(), Value::Null));
+        entries.len() - 1
+    });
+    set(&mut entries[at].1, rest, new);
 }
 
 fn any() -> String {
@@ -139,21 +176,30 @@ impl Method {
         matches!(self.rule, Rule::Peer(Peer::Extrapolation { .. }))
     }
 
-    /// Scores one track; none where the method does not apply to such tracks.
-    pub fn score(&self, track: &Track, approach: usize) -> Result<Option<Score>, String> {
+    /// Scores one track; none where the method does not apply to such tracks. With the steps, if they are wanted and there are some.
+    pub fn score(
+        &self,
+        track: &Recorded,
+        approach: usize,
+        wants_steps: bool,
+    ) -> Result<Option<(Score, Vec<Step>)>, String> {
+        let message = |error: whither::Error| error.to_string();
         let tops = match &self.rule {
             Rule::Ours(template) => {
-                let coordinates = template.coordinates(track)?;
-                let track = coordinates.as_ref();
-                let scenario =
-                    track_scenario(track, &template.scenario, &template.extra).map_err(|error| error.to_string())?;
-                return Score::of_scenario(track, approach, &scenario).map(Some).map_err(|error| error.to_string());
+                let track = template.recorded(track)?;
+                let scenario = track.scenario(&template.scenario, &template.extra).map_err(message)?;
+                if wants_steps {
+                    let run = steps::run(&track, approach, &scenario, template.has_likelihood());
+                    return run.map(Some).map_err(message);
+                }
+                let score = Score::of_scenario(&track, approach, &scenario).map_err(message)?;
+                return Ok(Some((score, Vec::new())));
             }
             Rule::Peer(peer) if peer.applies(track) => peer.tops(track, approach),
             Rule::Foresight(foresight) if track.dimensions() == 2 => foresight.tops(track, approach)?,
             Rule::Peer(_) | Rule::Foresight(_) => return Ok(None),
         };
         let predictions: Vec<Prediction> = tops.into_iter().map(|top| Prediction { top, chances: None }).collect();
-        Ok(Some(Score::of(track, &predictions)))
+        Ok(Some((Score::of(track, &predictions), Vec::new())))
     }
 }

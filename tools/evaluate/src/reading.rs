@@ -1,9 +1,11 @@
 //! Track files, one JSON object a line, read in batches so that a file of any length takes the same memory.
 
+use crate::recorded::Recorded;
 use presentation::progress;
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
+use std::ops::ControlFlow;
 use std::path::Path;
 use whither::study::track::Track;
 
@@ -20,11 +22,15 @@ pub struct Line {
 }
 
 impl Line {
-    /// The track with `margin` added to the size of every target, or what is wrong with the line.
+    /// What was recorded, with `margin` added to the size of every box, or what is wrong with the line.
+    pub fn recorded(&self, margin: f64) -> Result<Recorded, String> {
+        let value = serde_json::from_slice(&self.text).map_err(|error| error.to_string())?;
+        Recorded::read(&value, margin)
+    }
+
+    /// The same for what knows boxes alone.
     pub fn track(&self, margin: f64) -> Result<Track, String> {
-        let mut track: Track = serde_json::from_slice(&self.text).map_err(|error| error.to_string())?;
-        track.targets.iter_mut().flat_map(|target| &mut target.size).for_each(|side| *side += margin);
-        Ok(track)
+        self.recorded(margin)?.boxes().cloned()
     }
 
     /// What is wrong with it, and where.
@@ -104,7 +110,14 @@ pub fn each<T: Send>(
     let bar = progress(size, name(path));
     let mut faults = Faults::default();
     in_batches(path, |lines, bytes| {
-        let done: Vec<_> = lines.par_iter().map(&work).collect();
+        let done: Vec<_> = lines
+            .par_iter()
+            .map(|line| {
+                let done = work(line);
+                bar.inc(line.text.len() as u64);
+                done
+            })
+            .collect();
         for (line, done) in lines.iter().zip(done) {
             match done {
                 Ok(Some(done)) => take(done),
@@ -113,7 +126,7 @@ pub fn each<T: Send>(
             }
         }
         bar.set_position(bytes);
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     })?;
     bar.finish_and_clear();
     faults.report().iter().for_each(|line| eprintln!("{line}"));
@@ -125,8 +138,33 @@ pub fn name(path: &Path) -> String {
     path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Reads a file batch by batch; `take` gets the lines and the bytes read so far.
-fn in_batches(path: &Path, mut take: impl FnMut(&[Line], u64) -> Result<(), String>) -> Result<(), String> {
+/// The dimensions of the first track of a file; broken lines are left for later.
+pub fn dimensions(path: &Path) -> Result<Option<usize>, String> {
+    let mut found = None;
+    in_batches(path, |lines, _| {
+        let track = lines.iter().find_map(|line| line.recorded(0.0).ok());
+        found = track.map(|track| track.dimensions());
+        Ok(if found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    })?;
+    Ok(found)
+}
+
+/// The most targets that any track of a file has.
+pub fn most_targets(path: &Path) -> Result<usize, String> {
+    let mut most = 0;
+    in_batches(path, |lines, _| {
+        let targets = |line: &Line| line.recorded(0.0).map_or(0, |track| track.targets.len());
+        most = most.max(lines.par_iter().map(targets).max().unwrap_or(0));
+        Ok(ControlFlow::Continue(()))
+    })?;
+    Ok(most)
+}
+
+/// Reads a file batch by batch until `take` breaks, which gets the lines and the bytes read so far.
+fn in_batches(
+    path: &Path,
+    mut take: impl FnMut(&[Line], u64) -> Result<ControlFlow<()>, String>,
+) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("{}: {error}", path.display());
     let mut reader = BufReader::new(File::open(path).map_err(failed)?);
     let (mut batch, mut number, mut bytes) = (Vec::with_capacity(BATCH), 0, 0);
@@ -139,7 +177,9 @@ fn in_batches(path: &Path, mut take: impl FnMut(&[Line], u64) -> Result<(), Stri
             batch.push(Line { number, text });
         }
         if batch.len() == BATCH || read == 0 {
-            take(&batch, bytes)?;
+            if take(&batch, bytes)?.is_break() {
+                return Ok(());
+            }
             batch.clear();
         }
         if read == 0 {
@@ -183,7 +223,7 @@ mod tests {
                     Err(message) => found.push(line.broken(Path::new("tracks.jsonl"), &message)),
                 }
             }
-            Ok(())
+            Ok(ControlFlow::Continue(()))
         })
         .unwrap();
         assert_eq!(each(&path, |line| line.track(0.0).map(Some), |_| ()), Ok(1), "one is skipped");

@@ -131,7 +131,7 @@ impl Results {
         let moments = MOMENTS.map(|share| format!("{:.0}", 100.0 * share)).join(" / ");
         let at = format!("right at {moments}%");
         for set in &self.sets {
-            let Some(first) = set.rows.first() else { continue };
+            let Some(first) = set.rows.iter().find(|row| !row.users.is_empty()) else { continue };
             println!("\n{}: {} tracks of {} users", set.name, first.total().tracks, first.users.len());
             let mut table = table(["method", "time %", "log loss", "calibration error", &at, "lead, ms"], 1);
             for (name, row) in set.shown() {

@@ -33,6 +33,9 @@ pub enum Variant {
     Scale(f64),
 }
 
+/// The targets of [`Variant::Around`].
+pub const AROUND: usize = 13;
+
 /// The rows of the table.
 pub const ALL: [Variant; 14] = [
     Variant::Recorded,
@@ -84,9 +87,7 @@ impl Variant {
                 sides.for_each(|side| *side *= 0.5 * 8f64.powf(random.uniform()));
             }
             Self::Every(step) => {
-                let last = track.approach()? - 1;
-                let entry = track.samples[last].clone();
-                track.samples = track.samples[..last].iter().step_by(step).cloned().chain([entry]).collect();
+                track.samples = thin(&track.samples[..track.approach()?], step);
                 let length = track.samples.len();
                 return Some((track, length));
             }
@@ -106,6 +107,12 @@ impl Variant {
         let approach = track.approach()?;
         Some((track, approach))
     }
+}
+
+/// Every n-th sample, and the last.
+pub fn thin(samples: &[Sample], step: usize) -> Vec<Sample> {
+    let Some((last, others)) = samples.split_last() else { return Vec::new() };
+    others.iter().step_by(step).chain([last]).cloned().collect()
 }
 
 /// Any index below `count`.
@@ -159,7 +166,7 @@ fn around(track: &mut Track, [low, high]: [f64; 2], random: &mut Random) {
     let offsets = truth.center.iter().zip(start).map(|(a, b)| (a - b).powi(2));
     let far = offsets.sum::<f64>().sqrt();
     let mut targets = vec![truth.clone()];
-    while targets.len() < 13 {
+    while targets.len() < AROUND {
         let mut place = truth.clone();
         for _ in 0..100 {
             let (way, angle) =
