@@ -22,6 +22,7 @@ mod peers;
 mod reading;
 mod recorded;
 mod report;
+mod scores;
 mod shake;
 mod steps;
 mod streams;
@@ -30,22 +31,17 @@ mod variants;
 
 use clap::Parser;
 use crossings::Crossings;
-use extras::{Extras, Sums};
 use foresight::Foresight;
 use grid::{Grid, LeftOut};
 use methods::{Method, Template};
 use outcomes::Gains;
 use peers::Peer;
-use recorded::Recorded;
-use report::{Results, Set};
+use report::Results;
+use scores::Tables;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use steps::Step;
-use variants::Variant;
-use whither::Learnt;
-use whither::study::metrics::Score;
 
 /// Options of the usual tables only.
 const OF_SCORES: [&str; 14] = [
@@ -242,8 +238,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     for file in &arguments.files {
         let methods = methods_for(arguments, file, &mut left_out)?;
         let into =
-            Into { results: &mut results, more: more.as_mut(), crossings: crossings.as_mut(), steps: steps.as_mut() };
-        skipped += evaluate(arguments, file, &methods, into)?;
+            Tables { results: &mut results, more: more.as_mut(), crossings: crossings.as_mut(), steps: steps.as_mut() };
+        skipped += scores::run(arguments, (file, &template_for(file)?), &methods, into)?;
         if let Some(gains) = &mut gains {
             let template = template_for(file)?;
             let margin = arguments.margin.unwrap_or(template.margin);
@@ -340,82 +336,6 @@ fn begin_steps(arguments: &Arguments, path: &Path) -> Result<steps::Table, Strin
     steps::Table::create(path, if arguments.around.is_some() { variants::AROUND } else { most })
 }
 
-/// Where the results of a file go.
-struct Into<'a> {
-    results: &'a mut Results,
-    more: Option<&'a mut BTreeMap<String, Sums>>,
-    crossings: Option<&'a mut Crossings>,
-    steps: Option<&'a mut steps::Table>,
-}
-
-fn evaluate(arguments: &Arguments, file: &Path, methods: &[Method], mut into: Into<'_>) -> Result<usize, String> {
-    let name = reading::name(file);
-    let mut sets: Vec<Set> = Vec::new();
-    let template = template_for(file)?;
-    let margin = arguments.margin.unwrap_or(template.margin);
-    let also = [into.more.is_some(), into.crossings.is_some()].map(|wanted| wanted.then_some(&template));
-    let mut failed = None;
-    let skipped = reading::each(
-        file,
-        |line| score(line, (margin, arguments, template.to_the_end), methods, also),
-        |scored| {
-            let (part, user) = (reading::part(&scored.track), &scored.track.user);
-            report::add(&mut sets, &name, part, methods, user, &scored.scores);
-            if let (Some(sums), Some(extras)) = (into.more.as_deref_mut(), scored.extras) {
-                sums.entry(format!("{name}{part}")).or_default().add(&extras);
-            }
-            if let (Some(crossings), Some(crossing)) = (into.crossings.as_deref_mut(), scored.crossing) {
-                crossings.entry(format!("{name}{part}")).or_default().entry(user.clone()).or_default().add(&crossing);
-            }
-            if let Some(table) = into.steps.as_deref_mut() {
-                for (method, steps) in methods.iter().zip(&scored.steps) {
-                    if failed.is_none() {
-                        failed = table.add(file, scored.line, &scored.track, &method.name, steps).err();
-                    }
-                }
-            }
-        },
-    )?;
-    into.results.sets.extend(sets);
-    failed.map_or(Ok(skipped), Err)
-}
-
-/// The results of one track.
-struct Scored {
-    line: usize,
-    track: Recorded,
-    /// One for each method, as the steps.
-    scores: Vec<Option<Score>>,
-    steps: Vec<Vec<Step>>,
-    extras: Option<Extras>,
-    crossing: Option<crossings::Sums>,
-}
-
-fn score(
-    line: &reading::Line,
-    (margin, arguments, to_the_end): (f64, &Arguments, bool),
-    methods: &[Method],
-    [more, thresholds]: [Option<&Template>; 2],
-) -> Result<Option<Scored>, String> {
-    let (mut recorded, every) = (line.recorded(margin)?, arguments.every);
-    if let Some([low, high]) = arguments.around.as_deref() {
-        let boxes = recorded.boxes()?;
-        let Some((other, _)) = Variant::Around([*low, *high]).of(boxes, line.number as u64) else {
-            return Ok(None);
-        };
-        recorded = other.into();
-    }
-    let Some((track, approach)) = recorded.every(every, to_the_end) else { return Ok(None) };
-    let score = |method: &Method| method.score(&track, approach, arguments.steps.is_some());
-    let scores = methods.iter().map(score).collect::<Result<Vec<_>, _>>()?;
-    let (scores, steps) = scores.into_iter().map(Option::unzip).unzip::<_, _, Vec<_>, Vec<_>>();
-    let steps = steps.into_iter().map(Option::unwrap_or_default).collect();
-    let extras = more.map(|template| extras::run(template, track.boxes()?, approach, line.number, &Learnt::default()));
-    let crossing = thresholds.map(|template| crossings::run(template, recorded.boxes()?, every));
-    let (extras, crossing) = (extras.transpose()?, crossing.transpose()?.flatten());
-    Ok(Some(Scored { line: line.number, track, scores, steps, extras, crossing }))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -439,6 +359,7 @@ mod tests {
                 && !refused("evaluate a.jsonl --wandering --users")
                 && !refused("evaluate a.jsonl --menus --tuned")
                 && !refused("evaluate a.jsonl --more --thresholds")
+                && !refused("evaluate --methods all --steps steps.csv --users a.jsonl")
         );
         for line in [
             "evaluate",
@@ -455,6 +376,11 @@ mod tests {
             "evaluate a --thresholds --sweep",
             "evaluate a --menus --intents",
             "evaluate a --tuned",
+            "evaluate a --methods all --sweep",
+            "evaluate a --points 7 --fit",
+            "evaluate a --noise 3 --shake",
+            "evaluate a --arrival uniform:1:2 --streams",
+            "evaluate a --steps steps.csv --intents",
         ] {
             assert!(refused(line), "{line}");
         }

@@ -1,10 +1,12 @@
 //! `--methods`, `--points`, `--noise`, `--arrival`: methods over a grid of what a scenario sets, one row each.
 
+mod options;
+
 use crate::methods::{Template, set};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use options::{Noise, Prior};
 use std::collections::BTreeMap;
-use std::fmt::{self, Display, Formatter};
 use whither::Code;
 use whither::internals::{Node, Value, data, track_scenario};
 use whither::study::track::{Target, Track};
@@ -15,9 +17,6 @@ const POINTING: &str = "pointing";
 /// The methods of the papers, as a scenario spells them; those of one family are neighbours.
 const PAPERS: [&str; 6] =
     ["pseudoObservation", "algorithm1", "algorithm2", "bridging", "singleFilter", "singleFilterApproximate"];
-
-/// Where a scenario's prior is a horizon, `uniform` reaches so many times as far: it counts from the first observation.
-const WIDER: f64 = 5.0;
 
 /// What is combined; a list that is left out is the scenario's own.
 #[derive(Clone, Debug, Default, Args)]
@@ -45,117 +44,6 @@ pub struct Grid {
 
 fn methods() -> PossibleValuesParser {
     PossibleValuesParser::new(["all", POINTING].into_iter().chain(PAPERS))
-}
-
-/// `motion.noise` of one row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Noise {
-    Absolute(f64),
-    Factor(f64),
-}
-
-impl Noise {
-    fn parse(text: &str) -> Result<Self, String> {
-        let (number, noise): (_, fn(f64) -> Self) = match text.strip_prefix('x') {
-            Some(factor) => (factor, Self::Factor),
-            None => (text, Self::Absolute),
-        };
-        match number.parse() {
-            Ok(x) if x > 0.0 && f64::is_finite(x) => Ok(noise(x)),
-            _ => Err("must be a number above 0, or x and a factor above 0".to_owned()),
-        }
-    }
-
-    /// What the scenario's noise becomes.
-    fn of(self, given: &Value) -> Value {
-        let Self::Factor(factor) = self else {
-            let Self::Absolute(noise) = self else { unreachable!() };
-            return Value::Number(noise);
-        };
-        match given {
-            Value::Number(noise) => Value::Number(noise * factor),
-            Value::List(noises) => Value::List(noises.iter().map(|noise| self.of(noise)).collect()),
-            Value::Map(entries) => Value::Map(
-                entries
-                    .iter()
-                    .map(|(key, value)| {
-                        (key.clone(), if **key == *"candidates" { self.of(value) } else { value.clone() })
-                    })
-                    .collect(),
-            ),
-            other => other.clone(),
-        }
-    }
-}
-
-impl Display for Noise {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Absolute(noise) => write!(f, "{noise}"),
-            Self::Factor(factor) => write!(f, "x{factor}"),
-        }
-    }
-}
-
-/// An arrival prior, as it was written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prior {
-    text: String,
-    value: Value,
-}
-
-impl Prior {
-    /// The keys of each prior that has numbers alone.
-    const KEYS: [(&str, &[&str]); 4] = [
-        ("horizon", &["from", "to"]),
-        ("uniform", &["from", "to"]),
-        ("logNormal", &["median", "spread"]),
-        ("fitts", &["intercept", "slope", "spread"]),
-    ];
-
-    fn parse(text: &str) -> Result<Self, String> {
-        let legal = "must be horizon:FROM:TO, uniform:FROM:TO, logNormal:MEDIAN:SPREAD, fitts:INTERCEPT:SLOPE:SPREAD \
-                     or discrete:TIME:TIME..., in seconds";
-        let mut parts = text.split(':');
-        let kind = parts.next().unwrap_or_default();
-        let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().map_err(|_| legal)?;
-        let mut entries = vec![("type", Value::text(kind))];
-        match Self::KEYS.iter().find(|(name, _)| *name == kind) {
-            Some((_, keys)) if keys.len() == numbers.len() => {
-                entries.extend(keys.iter().copied().zip(numbers.into_iter().map(Value::Number)));
-            }
-            None if kind == "discrete" && !numbers.is_empty() => entries.push(("times", Value::numbers(&numbers))),
-            _ => return Err(legal.to_owned()),
-        }
-        let entries = entries.into_iter().map(|(key, value)| (key, Some(value))).collect();
-        Ok(Self { text: text.to_owned(), value: Value::some(entries) })
-    }
-
-    /// A scenario's own.
-    fn of(value: &Value) -> Self {
-        let root = Node::root(value, "");
-        let text = |key: &str| root.get(key).and_then(|node| node.text().ok().map(str::to_owned));
-        let kind = text("type").unwrap_or_default();
-        let keys = Self::KEYS.iter().find(|(name, _)| *name == kind).map_or(&[][..], |(_, keys)| keys);
-        let numbers = keys.iter().filter_map(|key| root.get(key)?.float().ok()).map(|x| format!(":{x}"));
-        let times = root.get("times").and_then(|times| times.floats().ok()).unwrap_or_default();
-        let text = kind.clone() + &numbers.chain(times.iter().map(|x| format!(":{x}"))).collect::<String>();
-        Self { text, value: value.clone() }
-    }
-
-    /// The priors of a scenario where no other is asked for.
-    fn defaults(scenario: &Value) -> Vec<Self> {
-        let root = Node::root(scenario, "");
-        let Some(own) = root.get("arrival") else { return Vec::new() };
-        let number = |key: &str| own.get(key)?.float().ok();
-        let horizon = own.get("type").and_then(|kind| kind.text().ok()) == Some("horizon");
-        let wider = number("from").zip(number("to")).filter(|_| horizon).map(|(from, to)| {
-            let entries =
-                [("type", Value::text("uniform")), ("from", Value::Number(from)), ("to", Value::Number(WIDER * to))];
-            Self::of(&Value::map(entries))
-        });
-        [Self::of(own.value())].into_iter().chain(wider).collect()
-    }
 }
 
 /// The rows of a grid.
