@@ -11,6 +11,7 @@ const types = {
   ".html": "text/html; charset=utf-8",
   ".js": "text/javascript",
   ".json": "application/json",
+  ".md": "text/plain; charset=utf-8",
   ".mjs": "text/javascript",
   ".png": "image/png",
   ".svg": "image/svg+xml",

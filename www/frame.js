@@ -59,6 +59,6 @@ function footer(up, { version, license, repository }) {
   const source = repository ? `<a href="${repository}">Source</a>` : "";
   return `<footer class="footer">
       <p>Whither ${version}, ${license.replace(" OR ", " or ")}. Everything is computed in your browser, and nothing is sent anywhere; once loaded, these pages work offline.</p>
-      <p class="footer-links"><a href="${up}docs/index.html">Documentation</a><a href="${up}index.html#papers">Papers and patents</a>${source}</p>
+      <p class="footer-links"><a href="${up}docs/index.html">Documentation</a><a href="${up}index.html#papers">Papers and patents</a><a href="${up}licences.md">Licences</a>${source}</p>
     </footer>`;
 }

@@ -1,9 +1,13 @@
 // What holds for every page of the demo: how it loads and looks at any size, with large text, without a network, for everybody.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
+import { capture } from "../../scripts/run.mjs";
 import { collisions } from "./collisions.mjs";
 import { SCENES } from "./scenes.mjs";
 import { hosted, isReady, nextFrame, open, POLICY, shifts } from "./support.mjs";
@@ -195,6 +199,30 @@ describe("without a network", () => {
       assert.equal(await page.evaluate(() => document.documentElement.dataset.failed), undefined, path);
     }
     await close();
+  });
+});
+
+describe("beside the pages", () => {
+  const site = hosted();
+
+  it("lies the package, which the line on the first page installs", async (test) => {
+    const { page, close } = await open(site.browser, site.url);
+    const [line] = (await page.locator("body").textContent()).match(/npm install \S+whither\.tgz/);
+    await close();
+    const folder = await mkdtemp(join(tmpdir(), "whither-install-"));
+    test.after(() => rm(folder, { recursive: true }));
+    await writeFile(join(folder, "package.json"), "{}");
+    const installed = await capture("npm", [...line.split(" ").slice(1), "--no-audit", "--no-fund"], { cwd: folder });
+    assert.equal(installed.code, 0, installed.output);
+    const program = `import { init, PointerPredictor } from "whither/pointing"; await init(); console.log(new PointerPredictor([]).none);`;
+    const { output } = await capture("node", ["--input-type=module", "--eval", program], { cwd: folder });
+    assert.equal(output.trim(), "1");
+  });
+
+  it("are the notices of all that is bundled", async () => {
+    const text = await (await fetch(`${site.url}licences.md`)).text();
+    for (const name of ["lucide", "twgl.js", "uplot", "js.foresight", "@fontsource-variable/archivo"])
+      assert.match(text, new RegExp(`^## ${name} - \\d`, "m"));
   });
 });
 
