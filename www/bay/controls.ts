@@ -1,4 +1,4 @@
-/** What the predictor is told: method, arrival prior, noise, the prior of "none of them". */
+/** What the predictor is given: method, arrival prior, noise, the prior of "none of them". */
 import type { Method } from "whither";
 import { showValue } from "../shared/slider.ts";
 import { DEFAULT, METHODS, type Settings } from "./scenario.ts";

@@ -42,7 +42,7 @@ function rough({ x, y }: Place): number {
   return ROUGHNESS.reduce((sum, { length, height }) => sum + height * lattice(x / length, y / length), 0);
 }
 
-/** From -1 to 1, between random values at the whole numbers. */
+/** From -1 to 1, between random values at the integers. */
 function lattice(x: number, y: number): number {
   const [i, j] = [Math.floor(x), Math.floor(y)];
   const [u, v] = [ease(x - i), ease(y - j)];
@@ -55,7 +55,7 @@ function ease(t: number): number {
   return t * t * (3 - 2 * t);
 }
 
-/** From -1 to 1, for two whole numbers. */
+/** From -1 to 1, for two integers. */
 function random(i: number, j: number): number {
   let hash = Math.imul(i, 0x9e3779b1) ^ Math.imul(j, 0x85ebca6b);
   hash = Math.imul(hash ^ (hash >>> 15), 0x2c1b3c6d);

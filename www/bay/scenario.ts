@@ -40,7 +40,7 @@ export function scenario(settings: Settings): Scenario {
     observation: { noise: REPORTED },
     initial: { velocity: SPEED },
     arrival: { type: settings.arrival, from, to },
-    // all nodes weigh the same, so that their probabilities are a density that can be drawn
+    // all nodes have the same weight, so that their probabilities are a density that can be drawn
     quadrature: { rule: "trapezoid", points: (to - from) / APART + 1 },
     method: settings.method,
     none: settings.none,
