@@ -1,7 +1,7 @@
 /** What people point with in a car: what is observed of each, and how. */
 import { random } from "whither/testing";
 import type { Point } from "./geometry.ts";
-import { shaker, type Road } from "./road.ts";
+import { shaker, type Road } from "../shared/road.ts";
 
 export type DeviceName = "mouse" | "touch" | "air";
 
@@ -41,14 +41,14 @@ export function deviceOf({ device }: Ride): Device {
 
 /** What is observed of where a hand would be without road and tracker; the same seed, the same road and noise. */
 export function observer(seed: number): (hand: Sample, ride: Ride) => Sample | null {
-  const shaken = shaker(seed);
+  const shaken = shaker(seed, 2);
   const next = random(seed + 1);
   let last = Number.NEGATIVE_INFINITY;
   return (hand, ride) => {
     const { interval, noise } = deviceOf(ride);
     if (hand.time >= last && hand.time - last < interval) return null;
     last = hand.time;
-    const { x, y } = shaken(hand.time, ride);
+    const [x = 0, y = 0] = shaken(hand.time, ride);
     const [across, down] = [normal(next), normal(next)];
     return { time: hand.time, x: hand.x + x + noise * across, y: hand.y + y + noise * down };
   };

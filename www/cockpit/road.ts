@@ -1,5 +1,5 @@
-/** The road: what shakes the hand, on each axis alike. */
-import { random } from "whither/testing";
+/** The road, by the deviation of what it does to the hand. */
+import { shaker } from "../shared/road.ts";
 import type { Position } from "./cabin.ts";
 
 export interface Road {
@@ -9,23 +9,12 @@ export interface Road {
   readonly frequency: number;
 }
 
-/** Frequencies lie within this share of the road's. */
-const SPREAD = 0.2;
-const WAVES = 8;
-
-/** How far the hand is shaken at any time in seconds: on each axis a sum of eight waves, as in `npm run evaluate -- --shake`. */
+/** How far the hand is shaken at any time in seconds, on each axis alike. */
 export function shaking({ deviation, frequency }: Road, seed: number): (seconds: number) => Position {
-  const uniform = random(seed);
-  const axis = () =>
-    Array.from({ length: WAVES }, () => ({
-      rate: 2 * Math.PI * frequency * (1 + SPREAD * (2 * uniform() - 1)),
-      phase: 2 * Math.PI * uniform(),
-    }));
-  const axes = [axis(), axis(), axis()] as const;
-  const height = deviation / Math.sqrt(WAVES / 2);
+  const shake = shaker(seed, 3);
+  const road = { amplitude: Math.SQRT2 * deviation, frequency };
   return (seconds) => {
-    const sum = (waves: (typeof axes)[0]) =>
-      height * waves.reduce((total, { rate, phase }) => total + Math.sin(rate * seconds + phase), 0);
-    return [sum(axes[0]), sum(axes[1]), sum(axes[2])];
+    const [x = 0, y = 0, z = 0] = shake(seconds, road);
+    return [x, y, z];
   };
 }
