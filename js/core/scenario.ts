@@ -229,8 +229,8 @@ export type Arrival =
       readonly type: "discrete";
       /** Up to 1001 times, each greater than 0. */
       readonly times: Vector;
-      /** The weight of each. */
-      readonly weights: Vector;
+      /** The weight of each; equal ones by default. They need not sum to one. */
+      readonly weights?: Vector;
     }
   | {
       readonly type: "logNormal";

@@ -20,6 +20,8 @@ const scenario: Scenario = {
   destinations: [{ id: "radio", center: [100, 80], size: [90, 90] }, { id: "map", mean: [600, 300], covariance: [[9, 0], [0, 9]] }],
 };
 
+export const known: Scenario = { ...scenario, arrival: { type: "discrete", times: [1, 2] } };
+
 export async function use(bytes: ArrayBuffer): Promise<string> {
   await init();
   await initSlim({ wasm: bytes });
