@@ -1,4 +1,4 @@
-// `npm run build:demo`: www/dist/, the pages for any static host and any sub-path; beside them the documentation and the package, packed.
+// `npm run build:demo`: www/dist/, the pages for any static host and any sub-path; beside them the package, packed, and the documentation.
 import { readFile, rename } from "node:fs/promises";
 import { join } from "node:path";
 import { build } from "./build.mjs";
@@ -17,11 +17,10 @@ export async function buildDemo() {
     await vite.build({ configFile: join(root, "www/vite.config.js") });
     await pack();
   });
-  await buildDocs();
 }
 
-/** The documents, and the interface from the comments in js/. A warning is an error. */
-async function buildDocs() {
+/** The documents, and the interface from the comments in js/, beside the demo. A warning is an error. */
+export async function buildDocs() {
   const inputs = ["docs", "js", "typedoc.json", "scripts/documents.mjs", "scripts/docs.css", "examples", "package-lock.json"];
   await incremental("documentation", { inputs, outputs: ["www/dist/docs/index.html"] }, async () => {
     const { code, output } = await capture("node", ["node_modules/typedoc/bin/typedoc", "--options", "typedoc.json"]);
@@ -37,4 +36,7 @@ async function pack() {
   await rename(join(folder, `whither-${version}.tgz`), join(folder, "whither.tgz"));
 }
 
-await main(import.meta.url, buildDemo);
+await main(import.meta.url, async () => {
+  await buildDemo();
+  await buildDocs();
+});

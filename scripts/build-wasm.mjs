@@ -57,12 +57,12 @@ export async function buildWasm({ dev = false } = {}) {
     async () => {
       rmSync(join(root, generated), { recursive: true, force: true });
       await compileTools();
-      for (const [i, { name, bytes }] of modules.entries()) {
-        await bindgen(compiled[i], name);
-        const file = join(root, `${generated}/${name}_bg.wasm`);
-        if (dev) embed(name, bytes, gzipSync(readFileSync(file)));
-        else await during(`making ${name}.wasm small`, async () => embed(name, bytes, await small(name)));
-      }
+      for (const [i, { name }] of modules.entries()) await bindgen(compiled[i], name);
+      const packed = ({ name }) => (dev ? gzipSync(readFileSync(join(root, `${generated}/${name}_bg.wasm`))) : small(name));
+      // wasm-opt has one thread
+      await during("making the modules small", () =>
+        Promise.all(modules.map(async (module) => embed(module.name, module.bytes, await packed(module)))),
+      );
     },
   );
 }

@@ -1,5 +1,5 @@
 // `npm start`: everything that it takes to open the page.
-import { buildDemo, folder } from "./build-demo.mjs";
+import { buildDemo, buildDocs, folder } from "./build-demo.mjs";
 import { main } from "./run.mjs";
 import { serve, wantedPort } from "./serve.mjs";
 
@@ -9,5 +9,7 @@ await main(import.meta.url, async () => {
   await (await serve(folder, { port })).close();
   await buildDemo();
   const { url } = await serve(folder, { port });
-  console.log(`\nThe demo is at ${url}, the documentation at ${url}docs/ (Ctrl+C stops both)`);
+  console.log(`\nThe demo is at ${url} (Ctrl+C stops it)`);
+  await buildDocs();
+  console.log(`The documentation is at ${url}docs/`);
 });
