@@ -21,7 +21,7 @@ export const GROUPS = {
     learning: "Learning from recorded movements",
     platforms: "Where it runs",
     errors: "Errors",
-    compare: "Beside other ways",
+    "other-ways": "Beside other ways",
     privacy: "Privacy, and people",
   },
   "What was measured": {

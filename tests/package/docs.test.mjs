@@ -44,6 +44,15 @@ test("the documentation", async (t) => {
     assert.deepEqual([...new Set(lost)], []);
   });
 
+  await t.test("is where the demo's pages link to", () => {
+    const html = readdirSync(join(root, "www"), { recursive: true }).filter((name) => /^(?!dist).*\.html$/.test(name));
+    const links = html.flatMap((name) =>
+      [...readFileSync(join(root, "www", name), "utf8").matchAll(/href="(?:\.\.?\/)+docs\/([^"#]+)/g)].map(([, link]) => link),
+    );
+    assert.ok(links.length > 0);
+    for (const link of links) assert.ok(existsSync(join(pages, link)), link);
+  });
+
   await t.test("leads to every entry of the package and to what matters first", () => {
     const links = [...content.matchAll(/href="([\w./-]+\.html)"/g)].map(([, link]) => link);
     for (const link of links) assert.ok(existsSync(join(pages, link)), `${link} leads nowhere`);
