@@ -35,14 +35,14 @@ fn draw(set: &Set) -> String {
             title: format!("{}: right, on the way to the target", set.name),
             x: ("% of the time", 0.0..100.0),
             y: ("% of the movements", 0.0..100.0),
-            legend: Corner::LowerRight,
+            legend: Some(Corner::LowerRight),
             series: accuracy,
         },
         Panel {
             title: "calibration of the top probability".to_owned(),
             x: ("predicted", 0.0..1.0),
             y: ("happened", 0.0..1.0),
-            legend: Corner::LowerRight,
+            legend: Some(Corner::LowerRight),
             series: calibration,
         },
     ];

@@ -61,8 +61,8 @@ pub struct Panel {
     pub title: String,
     pub x: (&'static str, Range<f64>),
     pub y: (&'static str, Range<f64>),
-    /// Where the legend is clear of the lines.
-    pub legend: Corner,
+    /// Where a legend is clear of the lines; none where another panel has it.
+    pub legend: Option<Corner>,
     pub series: Vec<Series>,
 }
 
@@ -125,7 +125,7 @@ fn draw(panel: &Panel, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
             Stroke::Dashed => chart.draw_series(DashedLineSeries::new(points, 6, 4, style))?,
             Stroke::Dots => chart.draw_series(points.map(|point| Circle::new(point, 2, style)))?,
         };
-        if !series.label.is_empty() && !named.contains(&series.label.as_str()) {
+        if panel.legend.is_some() && !series.label.is_empty() && !named.contains(&series.label.as_str()) {
             named.push(&series.label);
             let stroke = series.stroke;
             let style = ShapeStyle { color: series.colour.mix(1.0), filled: true, stroke_width: 2 };
@@ -139,10 +139,10 @@ fn draw(panel: &Panel, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Drawn {
             });
         }
     }
-    if !named.is_empty() {
+    if let Some(corner) = panel.legend.filter(|_| !named.is_empty()) {
         chart
             .configure_series_labels()
-            .position(match panel.legend {
+            .position(match corner {
                 Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
                 Corner::LowerRight => SeriesLabelPosition::LowerRight,
                 Corner::MiddleRight => SeriesLabelPosition::MiddleRight,

@@ -4,9 +4,9 @@ use crate::Effort;
 use crate::gestures::{self, Gesture, gesture, predictor_of};
 use crate::movement::{Movement, mean, percent, posteriors, share_on_top, top};
 use crate::random::Normals;
-use crate::report::{Chapter, Exhibit, Table};
+use crate::report::{Chapter, Exhibit, Figure, Table};
 use nalgebra::Vector3;
-use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke};
 
 /// Exact, and with the denominator taken as constant.
 const METHODS: [&str; 2] = ["singleFilter", "singleFilterApproximate"];
@@ -91,14 +91,14 @@ fn figure1(effort: Effort, progress: &ProgressBar) -> Exhibit {
             title: title.into(),
             x: ("time (s)", 0.0..last),
             y: ("p(D | y)", 0.0..1.02),
-            legend: Corner::UpperLeft,
+            legend: Some(Corner::UpperLeft),
             series: (0..selected.targets.len()).map(line).collect(),
         }
     };
     let panels = [panel("exact, (12)", &posteriors[0]), panel("denominator constant, Table 1", &posteriors[1])];
     let mut exhibit = Exhibit {
         title: "Figure 1: posteriors of 21 destinations over one gesture".into(),
-        figures: vec![chart(&panels, 1, (760, 300))],
+        figures: vec![Figure::new(panels, 1, (760, 300))],
         caption: format!("Top: the exact formulation, bottom: the approximation. The numbers are over {} gestures, but for the largest difference.", gestures.len()),
         paper: "Over 50 recorded gestures both formulations gave identical classification results at every observation. In the figure the \
                 distributions at each time differ marginally."
@@ -166,7 +166,7 @@ fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
                     title: format!("p of {name}, going there"),
                     x: ("time (s)", 0.0..last),
                     y: ("", 0.0..1.02),
-                    legend: Corner::LowerRight,
+                    legend: Some(Corner::LowerRight),
                     series: vec![
                         Series::new("exact", COLOURS[0], line(&both[0])),
                         Series::new("approximate", COLOURS[1], line(&both[1])).stroke(Stroke::Dashed),
@@ -182,7 +182,7 @@ fn in_line(effort: Effort, progress: &ProgressBar) -> Exhibit {
     }
     let mut exhibit = Exhibit {
         title: "Where dropping the denominator changes the answer: two targets in line".into(),
-        figures: vec![chart(&panels, 2, (420, 300))],
+        figures: vec![Figure::new(panels, 2, (420, 300))],
         caption: "Targets 0.2 m and 0.4 m from the start in the same direction. f(x_T given x_1) is larger for the near one, and by (12) each is \
                   measured against its density given the start alone; without that the near one is the most probable before anything has moved."
             .into(),

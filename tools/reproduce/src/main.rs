@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod ardeshiri;
+mod data;
 mod gestures;
 #[cfg(test)]
 mod headlines;
@@ -14,7 +15,7 @@ mod rezaie_li;
 
 use clap::Parser;
 use presentation::{ProgressBar, progress, write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -34,10 +35,26 @@ struct Arguments {
     /// Fewer tracks and runs: under a minute.
     #[arg(long)]
     quick: bool,
+    /// Where to write every number behind the page as JSON, too: comparisons, tables, and the points of every line.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// A folder for the same as CSV, a file for each figure and table.
+    #[arg(long, value_name = "FOLDER")]
+    csv: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    let effort = if Arguments::parse().quick { Effort::Quick } else { Effort::Full };
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    let effort = if arguments.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let work = rezaie_li::work(effort) + liang::work(effort) + ardeshiri::work(effort);
     let progress = progress(work, String::new());
@@ -58,12 +75,17 @@ fn main() -> ExitCode {
         if matches!(effort, Effort::Quick) { " This is a quick run with fewer tracks." } else { "" }
     );
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/reproduce/index.html");
-    if let Err(error) = write(&file, &report::page(&chapters, &introduction)) {
-        eprintln!("{error}");
-        return ExitCode::FAILURE;
-    }
+    write(&file, &report::page(&chapters, &introduction))?;
     println!("target/reproduce/index.html ({:.0} s)", start.elapsed().as_secs_f64());
-    ExitCode::SUCCESS
+    if let Some(file) = &arguments.json {
+        write(file, &format!("{:#}\n", data::json(&chapters)))?;
+        println!("{}", file.display());
+    }
+    if let Some(folder) = &arguments.csv {
+        let names = data::csv(&chapters, folder)?;
+        println!("{}: {}", folder.display(), names.join(", "));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The report: printed as tables, written as one self-contained page.
 
+use presentation::{Panel, chart};
 use std::fmt::Write;
 
 /// A table: headings and rows of the same length.
@@ -35,13 +36,25 @@ impl Table {
     }
 }
 
+/// A figure: panels, so many in a row, each of this width and height.
+pub struct Figure {
+    pub panels: Vec<Panel>,
+    columns: usize,
+    size: (u32, u32),
+}
+
+impl Figure {
+    pub fn new(panels: impl Into<Vec<Panel>>, columns: usize, size: (u32, u32)) -> Self {
+        Self { panels: panels.into(), columns, size }
+    }
+}
+
 /// One figure or table of a paper, remade.
 #[derive(Default)]
 pub struct Exhibit {
     /// What it is: "Figure 2: ...".
     pub title: String,
-    /// Figures as SVG.
-    pub figures: Vec<String>,
+    pub figures: Vec<Figure>,
     /// What the figures show.
     pub caption: String,
     /// What the paper states about it.
@@ -78,8 +91,8 @@ impl Exhibit {
     fn html(&self, id: &str) -> String {
         let title = typeset(&self.title);
         let mut html = format!("<section id=\"{id}\"><h3>{title}</h3><div class=\"columns\"><div class=\"ours\">");
-        for figure in &self.figures {
-            let _ = write!(html, "<figure>{figure}</figure>");
+        for Figure { panels, columns, size } in &self.figures {
+            let _ = write!(html, "<figure>{}</figure>", chart(panels, *columns, *size));
         }
         if !self.caption.is_empty() {
             let _ = write!(html, "<p class=\"caption\">{}</p>", typeset(&self.caption));

@@ -1,8 +1,8 @@
 //! Rezaie and Li, "Destination-Directed Trajectory Modeling and Prediction Using Conditionally Markov Sequences", section IV.
 
-use crate::report::{Chapter, Exhibit};
+use crate::report::{Chapter, Exhibit, Figure};
 use crate::{Effort, random};
-use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke};
 use serde_json::json;
 use whither::ConditionallyMarkovSequence;
 use whither::internals::Value;
@@ -102,8 +102,8 @@ fn figure1() -> Exhibit {
     }
     let mut exhibit = Exhibit {
         title: "Figure 1: 50 trajectories of the CM_L sequence and 50 of the Markov sequence".into(),
-        figures: vec![chart(
-            &[Panel { title: String::new(), x: ("x (km)", 0.0..140.0), y: ("y (km)", -15.0..25.0), legend: Corner::UpperLeft, series }],
+        figures: vec![Figure::new(
+            [Panel { title: String::new(), x: ("x (km)", 0.0..140.0), y: ("y (km)", -15.0..25.0), legend: Some(Corner::UpperLeft), series }],
             1,
             (760, 460),
         )],
@@ -156,12 +156,12 @@ fn figure2(runs: usize, progress: &ProgressBar) -> Exhibit {
     let ratio = errors[1][STEPS] / errors[0][STEPS];
     let mut exhibit = Exhibit {
         title: format!("Figure 2: average Euclidean error of the predicted position, {runs} runs"),
-        figures: vec![chart(
-            &[Panel {
+        figures: vec![Figure::new(
+            [Panel {
                 title: String::new(),
                 x: ("n", 0.0..92.0),
                 y: ("log10 AEE of the position at 9 + n given 9 (m)", 1.0..5.0),
-                legend: Corner::UpperLeft,
+                legend: Some(Corner::UpperLeft),
                 series: vec![
                     Series::new("Markov", COLOURS[1], points(&errors[1])).stroke(Stroke::Dashed),
                     Series::new("CM_L", COLOURS[0], points(&errors[0])),

@@ -3,8 +3,8 @@
 use crate::Effort;
 use crate::gestures::{self, Gesture, predictor_of};
 use crate::movement::{METHODS, mean, percent, posteriors, share_on_top};
-use crate::report::{Exhibit, Table};
-use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke, chart};
+use crate::report::{Exhibit, Figure, Table};
+use presentation::{COLOURS, Corner, Panel, ProgressBar, Series, Stroke};
 
 const SIGMAS: [f64; 10] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// The families: within each the methods are the same to rounding.
@@ -99,8 +99,8 @@ fn exhibit(title: &str, gestures: &[Gesture], assumed: Vec<String>, progress: &P
     let series: Vec<Series> = series.collect();
     let mut exhibit = Exhibit {
         title: format!("{title} ({} gestures)", gestures.len()),
-        figures: vec![chart(
-            &[Panel { title: String::new(), x: ("sigma (m/s^1.5)", 0.0..3.0), y: ("success (% of the time)", 0.0..100.0), legend: Corner::LowerRight, series }],
+        figures: vec![Figure::new(
+            [Panel { title: String::new(), x: ("sigma (m/s^1.5)", 0.0..3.0), y: ("success (% of the time)", 0.0..100.0), legend: Some(Corner::LowerRight), series }],
             1,
             (760, 380),
         )],

@@ -2,9 +2,9 @@
 
 use super::prediction_error::distances;
 use crate::movement::{METHODS, Movement, mean, median, percent, posteriors, scenario, share_on_top};
-use crate::report::{Exhibit, Table};
+use crate::report::{Exhibit, Figure, Table};
 use crate::{Effort, random};
-use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke, chart};
+use presentation::{COLOURS, Corner, Panel, ProgressBar, RGBColor, Series, Stroke};
 use serde_json::json;
 use whither::Scenario;
 use whither::internals::Value;
@@ -166,7 +166,7 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
         title: "(a) coloured by the probability of the true harbour: blue 0, red 1".into(),
         x: ("x (km)", -40.0..40.0),
         y: ("y (km)", -5.0..42.0),
-        legend: Corner::UpperLeft,
+        legend: Some(Corner::UpperLeft),
         series: map,
     };
     let panels: Vec<Panel> = shown
@@ -181,11 +181,10 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
                 title: format!("(b) p(D = D{} | y)", i + 1),
                 x: ("time (min)", 0.0..150.0),
                 y: ("", 0.0..1.02),
-                legend: Corner::LowerRight,
+                legend: (i == 0).then_some(Corner::LowerRight),
                 series: vec![
-                    Series::new(if i == 0 { "original" } else { "" }, COLOURS[1], line(&original[i])),
-                    Series::new(if i == 0 { "Algorithm 1" } else { "" }, COLOURS[0], line(&proposed[i]))
-                        .stroke(Stroke::Dashed),
+                    Series::new("original", COLOURS[1], line(&original[i])),
+                    Series::new("Algorithm 1", COLOURS[0], line(&proposed[i])).stroke(Stroke::Dashed),
                 ],
             }
         })
@@ -200,7 +199,7 @@ fn figure1(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
     progress.inc(vessels.len() as u64);
     let mut exhibit = Exhibit {
         title: format!("Figure 1: six synthetic vessel tracks; the true harbour on top over {} tracks", vessels.len()),
-        figures: vec![chart(&[map], 1, (760, 460)), chart(&panels, 3, (300, 230))],
+        figures: vec![Figure::new([map], 1, (760, 460)), Figure::new(panels, 3, (300, 230))],
         caption: "Orange: the original bridging distributions; blue, dashed: Algorithm 1. Both agree to rounding if x_1 is known; the less is known of the velocity at the start, the more they differ, for the original takes start and end as independent and Algorithm 1 knows that a start towards the harbour is likelier.".into(),
         paper: "Bridging is effective: uncertainty diminishes as the vessel moves towards its endpoint. The proposed algorithms give \
                 very similar results to the original."
@@ -262,8 +261,8 @@ fn figure2(vessels: &[Vessel], progress: &ProgressBar) -> Exhibit {
                   tracks are not near, and there the formulations differ most."
             .into(),
         title: format!("Figure 2: Bhattacharyya distance between the prediction errors, {} tracks", vessels.len()),
-        figures: vec![chart(
-            &[Panel { title: String::new(), x: ("time (min)", 0.0..150.0), y: ("distance (dB)", -200.0..0.0), legend: Corner::MiddleRight, series }],
+        figures: vec![Figure::new(
+            [Panel { title: String::new(), x: ("time (min)", 0.0..150.0), y: ("distance (dB)", -200.0..0.0), legend: Some(Corner::MiddleRight), series }],
             1,
             (760, 420),
         )],
