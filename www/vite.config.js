@@ -28,21 +28,21 @@ function notices() {
 }
 
 export default defineConfig(() => {
-  const { version, license, repository } = JSON.parse(readFileSync(here("../package.json"), "utf8"));
+  const { version, license, homepage: repository } = JSON.parse(readFileSync(here("../package.json"), "utf8"));
   const gzipped = (name) => sizes().find((part) => part.name.startsWith(name)).gzip;
   return {
     root: here("."),
     base: "./",
     logLevel: "warn",
-    plugins: [frame({ version, license, repository: repository?.url }), notices(), offline()],
+    plugins: [frame({ version, license, repository }), notices(), offline()],
     define: {
       __WHITHER__: {
         version,
         license,
-        repository: repository?.url ?? null,
+        repository: repository ?? null,
         // bytes under gzip
         dom: gzipped("`whither/dom`"),
-        pointing: gzipped("`whither/pointing`"),
+        later: gzipped("`whither/pointing`") + gzipped("what it loads when a pointer moves"),
       },
     },
     build: {

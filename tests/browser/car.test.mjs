@@ -1,7 +1,10 @@
 // What the car's screen is for, in ten seconds; its evidence; phones; the controls; colours of the chart.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { describe, it } from "node:test";
+import { gzipSync } from "node:zlib";
+import { root } from "../../scripts/run.mjs";
 import { head, hosted, middles, mouse, open, REST } from "./support.mjs";
 
 const rect = (page, selector) =>
@@ -22,10 +25,14 @@ describe("the car's screen", () => {
       const { top, bottom } = await rect(page, selector);
       assert.ok(top >= 0 && bottom <= 800 && bottom > top, `${selector}: ${top} to ${bottom}`);
     }
-    assert.match(
-      await text(page, "particulars"),
-      /^\d+\.\d kB with your page, \d+\.\d kB once a pointer moves, under gzip\. MIT or Apache-2\.0\.$/,
-    );
+    const [, now, later] =
+      /^(\d+\.\d) kB with your page, (\d+\.\d) kB once a pointer moves, under gzip\. MIT or Apache-2\.0\.$/.exec(
+        await text(page, "particulars"),
+      );
+    const gzipped = (...files) =>
+      files.reduce((sum, file) => sum + gzipSync(readFileSync(join(root, "dist", file))).length, 0) / 1000;
+    assert.ok(Math.abs(now - gzipped("dom.js", "error.js")) < 0.5, now);
+    assert.ok(Math.abs(later - gzipped("pointing.js", "pointing-bytes.js", "prediction.js")) < 1, later);
     for (const [name, target] of [
       ["Code", "#code"],
       ["How it works", "#how"],

@@ -6,6 +6,6 @@ declare const __WHITHER__: {
   readonly repository: string | null;
   /** Bytes under gzip of `whither/dom`. */
   readonly dom: number;
-  /** Bytes under gzip of `whither/pointing`. */
-  readonly pointing: number;
+  /** Bytes under gzip of what that loads when a pointer moves: `whither/pointing`, and what belongs to it. */
+  readonly later: number;
 };

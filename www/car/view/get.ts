@@ -9,10 +9,10 @@ export function get(): void {
   const line = part("install");
   const copy = part<HTMLButtonElement>("copy");
   line.textContent = installLine();
-  const { dom, pointing, license, repository } = __WHITHER__;
+  const { dom, later, license, repository } = __WHITHER__;
   const kB = (bytes: number) => `${(bytes / 1000).toFixed(1)} kB`;
   part("particulars").textContent =
-    `${kB(dom)} with your page, ${kB(pointing)} once a pointer moves, under gzip. ${license.replace(" OR ", " or ")}.`;
+    `${kB(dom)} with your page, ${kB(later)} once a pointer moves, under gzip. ${license.replace(" OR ", " or ")}.`;
   if (repository) {
     const source = document.createElement("a");
     source.href = repository;
